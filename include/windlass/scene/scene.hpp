@@ -1,0 +1,97 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+/// What the user asks for, as plain numbers: the outcome of reading a scene file.
+///
+/// All quantities are dimensionless (PHYSICS: length s/ρ, force T ρ²/EI, moment m ρ/EI), also for a physical
+/// scene; `units` then carries the scales that give millimetres and newtons back.
+namespace windlass::scene {
+
+enum class EndKind { moment_free, clamped };
+enum class ModelKind { automatic, closed_form, planar, kirchhoff };
+enum class Symmetry { automatic, half_turn, none };
+
+struct Rod {
+  double bending_stiffness = 1.0;    ///< EI1 [EI]; the unit of stiffness, 1 in a dimensionless capstan
+  double bending_stiffness_2 = 1.0;  ///< EI2 [EI]; differs from EI1 only for anisotropic free rods
+  double twist_ratio = 2.0 / 3.0;    ///< GJ/EI [-]
+  double length = 0.0;               ///< whole rod [ρ]; infinity() for `length = "inf"`
+  double natural_curvature = 0.0;    ///< û₁ [1/ρ]
+  double natural_twist = 0.0;        ///< û₃ [1/ρ]
+  bool infinite() const;
+
+  bool operator==(const Rod&) const = default;
+};
+
+struct Load {
+  double tension = 1.0;          ///< T [EI/ρ²], > 0 with a cylinder
+  double angle = 0.0;            ///< phi, the capstan angle [rad], > 0
+  std::optional<double> thrust;  ///< strut only: compressive end force [EI/L²-free: EI/ρ², ρ = 1]
+
+  bool operator==(const Load&) const = default;
+};
+
+struct Ends {
+  EndKind kind = EndKind::moment_free;
+  std::optional<double> shortening;  ///< strut only: end shortening / length [-]
+  double twist = 0.0;                ///< strut only: relative end rotation about the axis [rad]
+
+  bool operator==(const Ends&) const = default;
+};
+
+struct Model {
+  ModelKind kind = ModelKind::automatic;
+  Symmetry symmetry = Symmetry::automatic;
+  double tolerance = 1e-8;  ///< relative error asked of R_tot (strut: of end_force)
+
+  bool operator==(const Model&) const = default;
+};
+
+struct Continuation {
+  std::string parameter = "load.tension";  ///< dotted key of any numeric scene entry
+  double from = 0.0;
+  double to = 0.0;
+  double step = 0.0;      ///< first step in path length; 0: chosen by the program
+  double step_min = 0.0;  ///< 0: chosen
+  double step_max = 0.0;  ///< 0: chosen
+  int max_points = 2000;
+
+  bool operator==(const Continuation&) const = default;
+};
+
+/// Scales of a physical scene: multiply a dimensionless number to get SI units.
+struct Units {
+  double bending_stiffness = 1.0;  ///< EI [N m²]; with `length` it gives the other four
+  double length = 1.0;             ///< ρ = R + r; of a strut the rod length [m]
+  double force = 1.0;              ///< EI/ρ² [N]
+  double moment = 1.0;             ///< EI/ρ [N m]
+  double pressure = 1.0;           ///< EI/ρ³ [N/m] (force per length)
+  double energy = 1.0;             ///< EI/ρ [J]
+
+  /// The scales that follow from a length [m] and a bending stiffness [N m²].
+  static Units of(double length, double bending_stiffness);
+
+  bool operator==(const Units&) const = default;
+};
+
+struct Scene {
+  std::string name;   ///< file stem, or the scene's `name` key
+  std::string title;  ///< one line, from the scene's `title` key
+  Rod rod;
+  bool has_cylinder = false;       ///< radius of the centreline's cylinder is 1 when true
+  double rod_radius = 0.0;         ///< r [ρ]; 0 unless physical or given
+  std::optional<double> friction;  ///< mu
+  Load load;
+  Ends ends;
+  Model model;
+  std::optional<Continuation> continuation;
+  std::optional<Units> units;  ///< physical scenes only
+  std::string resolved_toml;   ///< the scene as resolved (defaults and --set applied), dimensionless;
+                               ///< reading it again gives an equal Scene
+
+  bool operator==(const Scene&) const = default;
+};
+
+}  // namespace windlass::scene

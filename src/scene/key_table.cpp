@@ -1,0 +1,221 @@
+#include <algorithm>
+#include <iterator>
+#include <type_traits>
+
+#include "windlass/scene/keys.hpp"
+
+namespace windlass::scene {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Range any{};
+constexpr Range positive{.low = 0.0, .open_low = true};
+constexpr Range not_negative{.low = 0.0};
+
+// ---- access to members, as plain function pointers -------------------------------------------------------------
+
+template <auto Part, auto Member>
+std::optional<double> get_in(const Scene& scene) {
+  return scene.*Part.*Member;
+}
+template <auto Part, auto Member>
+void set_in(Scene& scene, double value) {
+  scene.*Part.*Member = value;
+}
+template <auto Member>
+std::optional<double> get_continuation(const Scene& scene) {
+  if (!scene.continuation) return std::nullopt;
+  return static_cast<double>((*scene.continuation).*Member);
+}
+template <auto Member>
+void set_continuation(Scene& scene, double value) {
+  if (!scene.continuation) scene.continuation.emplace();
+  auto& member = (*scene.continuation).*Member;
+  member = static_cast<std::remove_reference_t<decltype(member)>>(value);
+}
+
+/// Words of an enumeration in the order of its values.
+template <auto Part, auto Member, const auto& Words>
+std::string get_word(const Scene& scene) {
+  return std::string(Words[static_cast<std::size_t>(scene.*Part.*Member)]);
+}
+template <auto Part, auto Member, const auto& Words>
+void set_word(Scene& scene, const std::string& word) {
+  const auto found = std::find(std::begin(Words), std::end(Words), word);
+  using Enum = std::remove_reference_t<decltype(scene.*Part.*Member)>;
+  scene.*Part.*Member = static_cast<Enum>(found - std::begin(Words));
+}
+
+constexpr std::string_view end_words[] = {"moment_free", "clamped"};
+constexpr std::string_view model_words[] = {"auto", "closed_form", "planar", "kirchhoff"};
+constexpr std::string_view symmetry_words[] = {"auto", "half_turn", "none"};
+
+template <auto Part, auto Member>
+Key parameter(std::string_view name, Dimension dimension, Range range, std::string_view help) {
+  return {.name = name,
+          .dimension = dimension,
+          .range = range,
+          .choices = {},
+          .help = help,
+          .get = get_in<Part, Member>,
+          .set = set_in<Part, Member>,
+          .is_parameter = true};
+}
+
+template <auto Part, auto Member, const auto& Words>
+Key word(std::string_view name, std::string_view help) {
+  return {.name = name,
+          .kind = ValueKind::text,
+          .range = any,
+          .choices = {std::begin(Words), std::end(Words)},
+          .help = help,
+          .get_text = get_word<Part, Member, Words>,
+          .set_text = set_word<Part, Member, Words>};
+}
+
+template <auto Member>
+Key method(std::string_view name, Dimension dimension, Range range, std::string_view help,
+           ValueKind kind = ValueKind::number) {
+  return {.name = name,
+          .kind = kind,
+          .dimension = dimension,
+          .range = range,
+          .choices = {},
+          .help = help,
+          .get = get_continuation<Member>,
+          .set = set_continuation<Member>};
+}
+
+/// A key the resolved scene no longer has: it went into the scales or into another key.
+Key derived(std::string_view name, Dimension dimension, Range range, std::string_view help) {
+  return {.name = name, .dimension = dimension, .range = range, .choices = {}, .help = help};
+}
+
+std::vector<Key> top_level_keys() {
+  return {
+      {.name = "name",
+       .kind = ValueKind::text,
+       .range = any,
+       .choices = {},
+       .help = "name of the run folder; default: the file's",
+       .get_text = [](const Scene& scene) { return scene.name; },
+       .set_text = [](Scene& scene, const std::string& text) { scene.name = text; }},
+      {.name = "title",
+       .kind = ValueKind::text,
+       .range = any,
+       .choices = {},
+       .help = "one line for people",
+       .get_text = [](const Scene& scene) { return scene.title; },
+       .set_text = [](Scene& scene, const std::string& text) { scene.title = text; }},
+  };
+}
+
+std::vector<Key> rod_keys() {
+  const Range length{.low = 0.0, .open_low = true, .allows_infinity = true};
+  const Range poisson{.low = -1.0, .high = 0.5, .open_low = true};
+  Key radius =
+      parameter<&Scene::rod, &Rod::length>("rod.radius", Dimension::length, not_negative,
+                                           "radius r of the rod; the centreline's cylinder is R + r");
+  radius.get = [](const Scene& scene) -> std::optional<double> { return scene.rod_radius; };
+  radius.set = [](Scene& scene, double value) { scene.rod_radius = value; };
+  radius.is_parameter = false;
+  return {
+      parameter<&Scene::rod, &Rod::length>("rod.length", Dimension::length, length,
+                                           "whole length, or \"inf\" (closed-form tails)"),
+      radius,
+      parameter<&Scene::rod, &Rod::bending_stiffness>("rod.bending_stiffness", Dimension::stiffness, positive,
+                                                      "EI; the unit of stiffness"),
+      parameter<&Scene::rod, &Rod::bending_stiffness_2>(
+          "rod.bending_stiffness_2", Dimension::stiffness, positive,
+          "EI about the other axis; default: that of bending_stiffness"),
+      derived("rod.youngs_modulus", Dimension::modulus, positive,
+              "E; with rod.radius it gives EI = E pi r^4/4"),
+      derived("rod.poisson_ratio", Dimension::none, poisson, "nu; gives twist_ratio = 1/(1 + nu)"),
+      parameter<&Scene::rod, &Rod::twist_ratio>("rod.twist_ratio", Dimension::none, positive, "GJ/EI"),
+      parameter<&Scene::rod, &Rod::natural_curvature>("rod.natural_curvature", Dimension::curvature, any,
+                                                      "curvature of the unloaded rod"),
+      parameter<&Scene::rod, &Rod::natural_twist>("rod.natural_twist", Dimension::curvature, any,
+                                                  "twist of the unloaded rod, rad per length"),
+  };
+}
+
+std::vector<Key> load_keys() {
+  Key friction{.name = "cylinder.friction",
+               .range = not_negative,
+               .choices = {},
+               .help = "friction coefficient mu; gives the sliding strength F0 = mu R_tot",
+               .get = [](const Scene& scene) { return scene.friction; },
+               .set = [](Scene& scene, double value) { scene.friction = value; },
+               .is_parameter = true};
+  return {
+      derived("cylinder.radius", Dimension::length, positive, "radius R; dimensionless: 1 - rod.radius"),
+      friction,
+      parameter<&Scene::load, &Load::tension>("load.tension", Dimension::force, positive,
+                                              "pull T on each end (with a cylinder)"),
+      parameter<&Scene::load, &Load::angle>("load.angle", Dimension::angle, positive,
+                                            "capstan angle phi between the pulls (with a cylinder)"),
+      parameter<&Scene::load, &Load::thrust>("load.thrust", Dimension::force, any,
+                                             "compressive end force of a strut"),
+      word<&Scene::ends, &Ends::kind, end_words>("ends.kind", "what holds the ends"),
+      parameter<&Scene::ends, &Ends::shortening>("ends.shortening", Dimension::none,
+                                                 {.low = 0.0, .high = 2.0, .open_high = true},
+                                                 "approach of a strut's ends, fraction of the length"),
+      parameter<&Scene::ends, &Ends::twist>("ends.twist", Dimension::angle, any,
+                                            "rotation of one strut end about the axis against the other"),
+  };
+}
+
+std::vector<Key> method_keys() {
+  Key tolerance{.name = "model.tolerance",
+                .range = {.low = 1e-14, .high = 0.1},
+                .choices = {},
+                .help = "relative error asked of R_tot (strut: of end_force)",
+                .get = get_in<&Scene::model, &Model::tolerance>,
+                .set = set_in<&Scene::model, &Model::tolerance>};
+  Key parameter_name{
+      .name = "continuation.parameter",
+      .kind = ValueKind::text,
+      .range = any,
+      .choices = {},
+      .help = "key the branch is followed in, e.g. load.tension or load.angle",
+      .get_text = [](const Scene& s) { return s.continuation ? s.continuation->parameter : ""; },
+      .set_text =
+          [](Scene& scene, const std::string& text) {
+            if (!scene.continuation) scene.continuation.emplace();
+            scene.continuation->parameter = text;
+          }};
+  using C = Continuation;
+  return {
+      word<&Scene::model, &Model::kind, model_words>("model.kind", "rung of the model ladder"),
+      word<&Scene::model, &Model::symmetry, symmetry_words>("model.symmetry", "half or whole rod"),
+      tolerance,
+      parameter_name,
+      method<&C::from>("continuation.from", Dimension::of_parameter, any,
+                       "first value of the parameter; default: the scene's"),
+      method<&C::to>("continuation.to", Dimension::of_parameter, any, "last value of the parameter"),
+      method<&C::step>("continuation.step", Dimension::none, not_negative,
+                       "first step in path length; 0: chosen"),
+      method<&C::step_min>("continuation.step_min", Dimension::none, not_negative,
+                           "smallest step; 0: chosen"),
+      method<&C::step_max>("continuation.step_max", Dimension::none, not_negative, "largest step; 0: chosen"),
+      method<&C::max_points>("continuation.max_points", Dimension::none, {.low = 2, .high = 1e6},
+                             "most points on a branch", ValueKind::integer),
+      derived("scale.length", Dimension::none, positive, "resolved scenes only: unit of length [m]"),
+      derived("scale.bending_stiffness", Dimension::none, positive, "resolved scenes only: unit EI [N m^2]"),
+  };
+}
+
+}  // namespace
+
+std::span<const Key> keys() {
+  static const std::vector<Key> table = [] {
+    std::vector<Key> all;
+    for (auto&& part : {top_level_keys(), rod_keys(), load_keys(), method_keys()})
+      all.insert(all.end(), part.begin(), part.end());
+    return all;
+  }();
+  return table;
+}
+
+}  // namespace windlass::scene

@@ -1,0 +1,160 @@
+#include "windlass/scene/reader.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "document.hpp"
+
+#include "rules.hpp"
+#include "values.hpp"
+#include "windlass/scene/keys.hpp"
+#include "windlass/scene/resolved.hpp"
+
+namespace windlass::scene {
+
+namespace {
+
+/// A document on its way to a Scene. The order of the steps matters: names, then the system of units, then the
+/// values, then what must hold between them.
+class Resolver {
+ public:
+  explicit Resolver(const Document& document) : document_(document) {}
+
+  Scene resolve(const std::string& name) {
+    check_names(document_);
+    scene_.name = name;
+    scene_.has_cylinder = document_.tables.contains("cylinder");
+    read_continuation_parameter();
+    find_units();
+    for (const Entry& entry : document_.entries) fill(entry);
+    derive();
+    check_rules(document_, scene_);
+    scene_.resolved_toml = to_toml(scene_);
+    return scene_;
+  }
+
+ private:
+  void read_continuation_parameter() {
+    if (!document_.tables.contains("continuation")) return;
+    scene_.continuation.emplace();
+    const Entry* entry = document_.find("continuation.parameter");
+    if (!entry) return;
+    const std::string name = read_text(*entry, *find_key(entry->key));
+    if (!is_numeric_key(name))
+      throw SceneError(fmt::format("{}must be a numeric key of the scene; did you mean {}?", entry->prefix(),
+                                   nearest_key(name)));
+    scene_.continuation->parameter = name;
+  }
+
+  /// The key whose dimension and range an entry has: for continuation.from and .to that of the parameter.
+  const Key& meaning(const Key& key) const {
+    return key.dimension == Dimension::of_parameter ? *find_key(scene_.continuation->parameter) : key;
+  }
+
+  double in_si(const char* name) const {
+    const Entry* entry = document_.find(name);
+    if (!entry) throw missing(document_, name, "a physical scene needs it");
+    const Key& key = *find_key(name);
+    const Number number = read_number(*entry, key, key.dimension, key.range);
+    if (!number.has_unit) throw SceneError(entry->prefix() + needs_unit(key));
+    return number.value;
+  }
+
+  std::string needs_unit(const Key& key) const {
+    std::string text = fmt::format("must be {}", description(key.dimension));
+    if (physical_) text += fmt::format(": the scene is physical, since {} has a unit", physical_->key);
+    return text;
+  }
+
+  /// Dimensionless, physical, or resolved: the scales are then given and both ways of writing have a meaning.
+  void find_units() {
+    const Entry* length = document_.find("scale.length");
+    const Entry* stiffness = document_.find("scale.bending_stiffness");
+    if (length || stiffness) {
+      if (!length) throw missing(document_, "scale.length", "scale.bending_stiffness needs it");
+      if (!stiffness) throw missing(document_, "scale.bending_stiffness", "scale.length needs it");
+      const auto value = [](const Entry& entry) {
+        const Key& key = *find_key(entry.key);
+        return read_number(entry, key, key.dimension, key.range).value;
+      };
+      scene_.units = Units::of(value(*length), value(*stiffness));
+      resolved_ = true;
+      return;
+    }
+    for (const Entry& entry : document_.entries) {
+      const Dimension dimension = meaning(*find_key(entry.key)).dimension;
+      if (!physical_ && is_written_with_unit(entry, dimension)) physical_ = &entry;
+    }
+    if (physical_) scene_.units = Units::of(unit_of_length(), bending_stiffness());
+  }
+
+  double unit_of_length() const {
+    if (scene_.has_cylinder) return in_si("rod.radius") + in_si("cylinder.radius");
+    return in_si("rod.length");
+  }
+
+  double bending_stiffness() const {
+    const Entry* modulus = document_.find("rod.youngs_modulus");
+    if (document_.find("rod.bending_stiffness")) {
+      if (modulus) throw SceneError(modulus->prefix() + "must not be given beside rod.bending_stiffness");
+      return in_si("rod.bending_stiffness");
+    }
+    if (!modulus)
+      throw missing(document_, "rod.bending_stiffness", "a physical scene needs it, or rod.youngs_modulus");
+    const double radius = in_si("rod.radius");
+    if (radius <= 0.0)
+      throw SceneError(document_.find("rod.radius")->prefix() + "must be > 0 with rod.youngs_modulus");
+    return in_si("rod.youngs_modulus") * std::numbers::pi * std::pow(radius, 4) / 4.0;
+  }
+
+  void fill(const Entry& entry) {
+    const Key& key = *find_key(entry.key);
+    if (key.kind == ValueKind::text) {
+      key.set_text(scene_, read_text(entry, key));
+      return;
+    }
+    const Key& like = meaning(key);
+    const Number number = read_number(entry, key, like.dimension, like.range);
+    double value = number.value;
+    if (is_dimensional(like.dimension) && std::isfinite(value)) {
+      if (!number.has_unit && ((scene_.units && !resolved_) || key.name == "rod.youngs_modulus"))
+        throw SceneError(entry.prefix() + needs_unit(like));
+      if (number.has_unit) value /= scale_of(*scene_.units, like.dimension);
+    }
+    if (key.set) key.set(scene_, value);
+  }
+
+  /// What follows from other keys.
+  void derive() {
+    if (!document_.find("rod.bending_stiffness_2"))
+      scene_.rod.bending_stiffness_2 = scene_.rod.bending_stiffness;
+    if (const Entry* entry = document_.find("rod.poisson_ratio")) {
+      if (document_.find("rod.twist_ratio"))
+        throw SceneError(entry->prefix() + "must not be given beside rod.twist_ratio");
+      const Key& key = *find_key(entry->key);
+      scene_.rod.twist_ratio = 1.0 / (1.0 + read_number(*entry, key, key.dimension, key.range).value);
+    }
+    if (!scene_.continuation) return;
+    if (!document_.find("continuation.from"))
+      scene_.continuation->from = get_parameter(scene_, scene_.continuation->parameter);
+    else if (!document_.find(scene_.continuation->parameter))  // then the branch says where the scene starts
+      set_parameter(scene_, scene_.continuation->parameter, scene_.continuation->from);
+  }
+
+  const Document& document_;
+  Scene scene_;
+  const Entry* physical_ = nullptr;  ///< the first entry with a unit
+  bool resolved_ = false;            ///< written by the program, with its scales
+};
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
+  const Document document = read_document(path, overrides);
+  return Resolver(document).resolve(path.stem().string());
+}
+
+}  // namespace windlass::scene

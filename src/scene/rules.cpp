@@ -1,0 +1,103 @@
+#include "rules.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "windlass/scene/keys.hpp"
+
+namespace windlass::scene {
+
+namespace {
+
+void forbid(const Document& document, const std::string& key, const std::string& why) {
+  if (const Entry* entry = document.find(key)) throw SceneError(entry->prefix() + why);
+}
+
+bool starts_in(const Scene& scene, const std::string& key) {
+  return scene.continuation && scene.continuation->parameter == key;
+}
+
+void check_capstan(const Document& document, const Scene& scene) {
+  for (const char* key : {"load.tension", "load.angle"})
+    if (!document.find(key) && !starts_in(scene, key))
+      throw missing(document, key, fmt::format("{} with [cylinder]", find_key(key)->allowed()));
+  for (const char* key : {"load.thrust", "ends.shortening"})
+    forbid(document, key, "belongs to a strut; must not be given with [cylinder]");
+  if (scene.ends.twist != 0.0)
+    forbid(document, "ends.twist", "belongs to a strut; must be 0 with [cylinder]");
+  const Entry* radius = document.find("cylinder.radius");
+  if (!scene.units) {
+    if (scene.rod_radius >= 1.0)
+      forbid(document, "rod.radius", "must be < 1: lengths are in units of rod plus cylinder radius");
+    const Key& key = *find_key("cylinder.radius");
+    const double expected = 1.0 - scene.rod_radius;
+    const auto* number = radius ? std::get_if<double>(&radius->value) : nullptr;
+    const auto* integer = radius ? std::get_if<std::int64_t>(&radius->value) : nullptr;
+    const double given = number ? *number : integer ? static_cast<double>(*integer) : expected;
+    if (std::abs(given - expected) > 1e-12)
+      throw SceneError(
+          fmt::format("{}must be {} = 1 - rod.radius: without units lengths are in units of rod plus "
+                      "{}",
+                      radius->prefix(), expected, key.name));
+  } else if (document.find("scale.length")) {
+    forbid(document, "cylinder.radius", "must not be given beside scale.length, which contains it");
+  }
+}
+
+void check_strut(const Document& document, const Scene& scene) {
+  for (const char* key : {"load.tension", "load.angle"})
+    forbid(document, key, "needs a [cylinder]; a strut has load.thrust or ends.shortening");
+  if (scene.load.thrust && scene.ends.shortening) {
+    const bool thrust_last = document.find("load.thrust") != nullptr;
+    forbid(document, thrust_last ? "load.thrust" : "ends.shortening",
+           "must not be given beside the other of load.thrust and ends.shortening");
+  }
+  if (!scene.load.thrust && !scene.ends.shortening)
+    throw missing(document, "ends.shortening", "a scene without [cylinder] needs it, or load.thrust");
+  if (scene.rod.infinite()) forbid(document, "rod.length", "must be finite without [cylinder]");
+}
+
+void check_continuation(const Document& document, const Scene& scene) {
+  const Continuation& c = *scene.continuation;
+  const bool of_capstan = c.parameter == "load.tension" || c.parameter == "load.angle";
+  const bool of_strut = c.parameter == "load.thrust" || c.parameter.starts_with("ends.");
+  if (scene.has_cylinder ? of_strut : of_capstan)
+    throw SceneError(fmt::format(
+        "{}: continuation.parameter = \"{}\": must be a key that a scene {} [cylinder] has",
+        document.place_of_table("continuation"), c.parameter, scene.has_cylinder ? "with" : "without"));
+  if (!document.find("continuation.to"))
+    throw missing(document, "continuation.to", fmt::format("the last value of {}", c.parameter));
+  if (!std::isfinite(c.from) || !std::isfinite(c.to) || c.from == c.to)
+    forbid(document, "continuation.to",
+           fmt::format("must be finite and differ from continuation.from = {}", c.from));
+  if (c.step_max > 0.0 && c.step_min > c.step_max)
+    forbid(document, "continuation.step_min",
+           fmt::format("must be <= continuation.step_max = {}", c.step_max));
+  if (c.step > 0.0 && c.step < c.step_min)
+    forbid(document, "continuation.step", fmt::format("must be >= continuation.step_min = {}", c.step_min));
+  if (c.step_max > 0.0 && c.step > c.step_max)
+    forbid(document, "continuation.step", fmt::format("must be <= continuation.step_max = {}", c.step_max));
+}
+
+}  // namespace
+
+SceneError missing(const Document& document, const std::string& key, const std::string& why) {
+  const std::string table = key.substr(0, key.find('.'));
+  return SceneError(fmt::format("{}: {}: missing; {}", document.place_of_table(table), key, why));
+}
+
+void check_rules(const Document& document, const Scene& scene) {
+  if (!document.find("rod.length"))
+    throw missing(document, "rod.length", fmt::format("{}", find_key("rod.length")->allowed()));
+  if (scene.has_cylinder)
+    check_capstan(document, scene);
+  else
+    check_strut(document, scene);
+  if (scene.continuation) check_continuation(document, scene);
+  for (const char c : {'/', '\0'})
+    if (scene.name.find(c) != std::string::npos || scene.name.empty() || scene.name.front() == '.')
+      forbid(document, "name", "must be a file name: no \"/\", no leading \".\"");
+}
+
+}  // namespace windlass::scene
