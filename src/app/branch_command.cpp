@@ -1,0 +1,61 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "app/commands.hpp"
+#include "windlass/scene/reader.hpp"
+
+namespace windlass::app {
+
+namespace {
+
+/// `continue` and `diagram` take the same words: a scene file, or a run folder and the label of a stored point.
+void add_branch_command(CLI::App& command, CommonOptions& common, int& status,
+                        int (*run)(const BranchRequest&)) {
+  struct Words {
+    std::string start, label;
+  };
+  const auto words = std::make_shared<Words>();
+  command.add_option("SCENE", words->start, "scene file (TOML), or a run folder to restart from")
+      ->required()
+      ->type_name("");
+  command.add_option("LABEL", words->label, "with a run folder: the stored point, e.g. BP1")->type_name("");
+  add_common_options(command, common);
+  command.callback([words, run, &common, &status] {
+    BranchRequest request{common, {}, std::nullopt, words->label};
+    if (std::filesystem::is_directory(words->start)) {
+      request.run = words->start;
+      request.scene = scene_of_run(words->start, common);
+      if (words->label.empty())
+        throw InputError(words->start +
+                         ": is a run folder; say which stored point to restart from (a label)");
+    } else {
+      request.scene = scene::read_scene(words->start, common.set);
+      if (!words->label.empty())
+        throw InputError("label \"" + words->label + "\": needs a run folder, not a scene file");
+    }
+    if (!request.scene.continuation)
+      throw scene::SceneError(words->start + ": [continuation]: missing; this command needs continuation.to");
+    status = run(request);
+  });
+}
+
+}  // namespace
+
+void add_continue(CLI::App& app, CommonOptions& common, int& status) {
+  CLI::App* command = app.add_subcommand(
+      "continue", "one branch in T or phi (or any numeric scene key) from the scene's start");
+  command->footer(
+      "The branch and its special points go to the run folder, a row per point. Any stored point restarts a "
+      "run:\n"
+      "  windlass continue RUN LABEL --set continuation.to=0.1 --out DIR");
+  add_branch_command(*command, common, status, run_continue);
+}
+
+void add_diagram(CLI::App& app, CommonOptions& common, int& status) {
+  CLI::App* command =
+      app.add_subcommand("diagram", "the branch, its special points, and every branch that leaves them");
+  command->footer("Exit status 2 if a branch was lost; the diagram then says where.");
+  add_branch_command(*command, common, status, run_diagram);
+}
+
+}  // namespace windlass::app

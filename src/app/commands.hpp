@@ -1,0 +1,98 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "windlass/scene/scene.hpp"
+
+namespace CLI {
+class App;
+}
+
+/// The commands: each file `NAME_command.cpp` declares its options to CLI11 and, once they are parsed and the scene
+/// is read, calls the `run_NAME` below.
+namespace windlass::app {
+
+/// What the process tells the shell (CONTRACT.md).
+enum ExitStatus : int {
+  done = 0,
+  bad_input = 1,
+  not_finished = 2,  ///< the solver gave up; what it had is on disk
+  certificate_failed = 3,
+  interrupted = 130,
+};
+
+/// Options every command has.
+struct CommonOptions {
+  std::vector<std::string> set;    ///< KEY=VALUE, in the order given
+  std::filesystem::path out;       ///< --out; empty: default_folder()
+  bool force = false;              ///< replace an existing run
+  bool resume = false;             ///< go on with an existing run
+  bool json = false;               ///< summary as one JSON object on stdout, nothing else there
+  bool quiet = false;              ///< no progress, no summary text
+  std::vector<std::string> petsc;  ///< after `--`; already given to petsc::set_options
+};
+
+struct SolveRequest {
+  CommonOptions common;
+  scene::Scene scene;
+  bool save = false;  ///< --out was given: keep a run folder of one point
+};
+
+/// `continue` and `diagram`: from a scene, or from a stored point of a run.
+struct BranchRequest {
+  CommonOptions common;
+  scene::Scene scene;                        ///< of the run, with overrides, when it restarts
+  std::optional<std::filesystem::path> run;  ///< restart from here
+  std::string label;                         ///< the stored point to restart from
+};
+
+struct LocusRequest {
+  CommonOptions common;
+  std::filesystem::path run;
+  std::string label;
+  scene::Scene scene;                 ///< of the run, with overrides
+  std::string second = "load.angle";  ///< the second parameter
+  std::optional<double> from, to;     ///< of the second parameter [dimensionless]
+};
+
+/// `stability`, `verify`, `plot`, `report`: what is done with a finished run.
+struct RunRequest {
+  CommonOptions common;
+  std::filesystem::path run;
+  std::string label;                                         ///< stability: one point; empty: all
+  int eigenvalues = 6;                                       ///< stability: how many
+  double tolerance = 1e-12;                                  ///< verify: of the reference integration
+  double accept = 1e-6;                                      ///< verify: largest defect that passes
+  std::vector<std::string> formats = {"png", "svg", "pdf"};  ///< plot
+};
+
+// Bodies: one function a command, in run_NAME.cpp. They return an exit status; bad input is thrown.
+int run_solve(const SolveRequest& request);
+int run_continue(const BranchRequest& request);
+int run_diagram(const BranchRequest& request);
+int run_locus(const LocusRequest& request);
+int run_stability(const RunRequest& request);
+int run_verify(const RunRequest& request);
+int run_plot(const RunRequest& request);
+int run_report(const RunRequest& request);
+
+/// Declares a subcommand; its callback stores the exit status in `status`.
+using AddCommand = void(CLI::App& app, CommonOptions& common, int& status);
+AddCommand add_solve, add_continue, add_diagram, add_locus, add_stability, add_verify, add_plot, add_report,
+    add_scenes;
+
+// ---- shared by the command files -------------------------------------------------------------------------------
+
+/// Adds --set, --out, --force, --resume, --json, --quiet to a subcommand.
+void add_common_options(CLI::App& command, CommonOptions& common);
+
+/// `runs/SCENE-NAME` unless --out says otherwise.
+std::filesystem::path output_folder(const CommonOptions& common, const scene::Scene& scene);
+
+/// The scene as resolved in a run folder, with the overrides applied. @throws scene::SceneError
+scene::Scene scene_of_run(const std::filesystem::path& run, const CommonOptions& common);
+
+}  // namespace windlass::app

@@ -1,0 +1,38 @@
+#include <CLI/CLI.hpp>
+
+#include "app/commands.hpp"
+#include "windlass/scene/reader.hpp"
+
+namespace windlass::app {
+
+void add_common_options(CLI::App& command, CommonOptions& common) {
+  command.add_option("--set", common.set, "set a scene key, e.g. --set load.tension=2 (repeatable)")
+      ->type_name("KEY=VALUE")
+      ->take_all()
+      ->expected(1)
+      ->group("Common options");
+  command.add_option("--out", common.out, "folder for the results (default runs/SCENE-NAME)")
+      ->type_name("DIR")
+      ->group("Common options");
+  CLI::Option* force = command.add_flag("--force", common.force, "replace what is in that folder");
+  CLI::Option* resume = command.add_flag("--resume", common.resume, "go on with the run in that folder");
+  force->group("Common options")->excludes(resume);
+  resume->group("Common options");
+  command.add_flag("--json", common.json, "print the summary as one JSON object on stdout")
+      ->group("Common options");
+  command.add_flag("--quiet", common.quiet, "no progress on stderr, no summary text")
+      ->group("Common options");
+}
+
+std::filesystem::path output_folder(const CommonOptions& common, const scene::Scene& scene) {
+  return common.out.empty() ? std::filesystem::path("runs") / scene.name : common.out;
+}
+
+scene::Scene scene_of_run(const std::filesystem::path& run, const CommonOptions& common) {
+  if (!std::filesystem::exists(run)) throw InputError(run.string() + ": no such run folder");
+  if (!std::filesystem::is_regular_file(run / "scene.toml"))
+    throw InputError(run.string() + ": is not a run folder: it has no scene.toml");
+  return scene::read_scene(run / "scene.toml", common.set);
+}
+
+}  // namespace windlass::app

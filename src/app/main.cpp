@@ -1,0 +1,88 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+
+#include <string>
+#include <vector>
+
+#include "app/commands.hpp"
+#include "app/interrupt.hpp"
+#include "windlass/output/error.hpp"
+#include "windlass/petsc/session.hpp"
+#include "windlass/scene/error.hpp"
+
+namespace {
+
+using namespace windlass;
+using namespace windlass::app;
+
+constexpr const char* footer = R"(
+Start with
+  windlass scenes                                       what comes with the program
+  windlass diagram data/scenes/capstan-vps-pom.toml     branch, special points, what leaves them
+  windlass solve SCENE --set load.tension=2 --json      one equilibrium
+
+Any scene key can be set on the command line; `windlass scenes --keys` lists them. Options after `--` go to
+PETSc and SLEPc, e.g. `windlass solve SCENE -- -snes_monitor`.
+
+Exit status: 0 done; 1 bad input; 2 the solver could not finish (what it had is on disk); 3 a certificate
+failed; 130 stopped by Ctrl-C after the current point.)";
+
+/// Splits the command line at the first `--`: ours before it, PETSc's after it.
+std::vector<std::string> take_petsc_options(std::vector<std::string>& arguments) {
+  const auto separator = std::find(arguments.begin(), arguments.end(), "--");
+  if (separator == arguments.end()) return {};
+  std::vector<std::string> petsc(separator + 1, arguments.end());
+  arguments.erase(separator, arguments.end());
+  return petsc;
+}
+
+int complain(const char* message, int status) {
+  std::fprintf(stderr, "windlass: %s\n", message);
+  return status;
+}
+
+int run(std::vector<std::string> arguments) {
+  CLI::App app{"windlass: equilibria, bifurcations and stability of elastic rods in contact", "windlass"};
+  app.set_version_flag("--version", "windlass " WINDLASS_VERSION);
+  app.require_subcommand(1);
+  app.footer(footer);
+  app.get_formatter()->column_width(34);
+
+  CommonOptions common;
+  int status = done;
+  for (AddCommand* add : {add_solve, add_continue, add_diagram, add_locus, add_stability, add_verify,
+                          add_plot, add_report, add_scenes})
+    add(app, common, status);
+
+  common.petsc = take_petsc_options(arguments);
+  petsc::set_options(common.petsc);
+  std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back
+  try {
+    app.parse(arguments);
+  } catch (const CLI::Success& request) {  // --help, --version
+    return app.exit(request);
+  } catch (const CLI::ParseError& error) {
+    app.exit(error);  // prints the message and where help is
+    return bad_input;
+  }
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    catch_interrupts();
+    return run({argv + 1, argv + argc});
+  } catch (const InputError& error) {
+    return complain(error.what(), bad_input);
+  } catch (const output::OutputError& error) {  // a run folder that cannot be read or written
+    return complain(error.what(), bad_input);
+  } catch (const std::exception& error) {
+    return complain(error.what(), not_finished);
+  } catch (...) {
+    return complain("an unknown error", not_finished);
+  }
+}

@@ -1,0 +1,30 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "app/commands.hpp"
+
+namespace windlass::app {
+
+void add_verify(CLI::App& app, CommonOptions& common, int& status) {
+  CLI::App* command =
+      app.add_subcommand("verify", "the certificate: every stored point integrated again with CVODE");
+  command->footer(
+      "Reports the largest mismatch at joints, the drift of the invariants, the force balance, the worst gap "
+      "and the smallest contact force. Exit status 3 if a point fails.");
+  const auto request = std::make_shared<RunRequest>();
+  command->add_option("RUN", request->run, "run folder")->required()->type_name("");
+  command->add_option("--tolerance", request->tolerance, "of the reference integration")
+      ->check(CLI::Range(1e-15, 1e-3))
+      ->capture_default_str();
+  command->add_option("--accept", request->accept, "largest defect that passes")
+      ->check(CLI::Range(1e-15, 1.0))
+      ->capture_default_str();
+  add_common_options(*command, common);
+  command->callback([request, &common, &status] {
+    request->common = common;
+    scene_of_run(request->run, common);  // tells a folder that is no run from one that is
+    status = run_verify(*request);
+  });
+}
+
+}  // namespace windlass::app
