@@ -43,6 +43,17 @@ int complain(const char* message, int status) {
   return status;
 }
 
+/// CLI11 would only say that a subcommand is required.
+void check_command(const CLI::App& app, const std::string& word) {
+  if (word.starts_with('-')) return;
+  std::string known;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() == word) return;
+    known += (known.empty() ? "" : ", ") + command->get_name();
+  }
+  throw InputError(word + ": no such command; must be one of " + known);
+}
+
 int run(std::vector<std::string> arguments) {
   CLI::App app{"windlass: equilibria, bifurcations and stability of elastic rods in contact", "windlass"};
   app.set_version_flag("--version", "windlass " WINDLASS_VERSION);
@@ -56,6 +67,11 @@ int run(std::vector<std::string> arguments) {
                           add_plot, add_report, add_scenes})
     add(app, common, status);
 
+  if (arguments.empty()) {
+    std::fputs(app.help().c_str(), stderr);
+    return bad_input;
+  }
+  check_command(app, arguments.front());
   common.petsc = take_petsc_options(arguments);
   petsc::set_options(common.petsc);
   std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back
