@@ -1,0 +1,20 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+namespace continuation {
+
+/// An interval that holds a zero, and the best estimate in it.
+struct Bracket {
+  double lo = 0.0, hi = 0.0;  ///< the function has opposite signs at the two ends
+  double best = 0.0;          ///< the end with the smaller value
+  bool converged = false;     ///< hi − lo reached the tolerance
+};
+
+/// Zero of a continuous f with f(lo) f(hi) <= 0 by Brent's method, which ends with both ends of the bracket within
+/// 2·tolerance of each other. f may decline (nullopt); the bracket reached so far is then returned.
+Bracket find_zero(double lo, double f_lo, double hi, double f_hi, double tolerance,
+                  const std::function<std::optional<double>(double)>& f);
+
+}  // namespace continuation

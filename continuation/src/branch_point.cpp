@@ -1,0 +1,186 @@
+#include "continuation/branch_point.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace continuation {
+namespace {
+
+using Vector2 = Eigen::Vector2d;
+using Matrix2 = Eigen::Matrix2d;
+
+// The reduced function of one kernel direction and one parameter, as a gradient (y_λ, y_α) in z = (λ, α).
+class Gradient {
+ public:
+  Gradient(Reduced& reduced, Vector p, Eigen::Index parameter)
+      : reduced_(reduced), p_(std::move(p)), parameter_(parameter) {}
+
+  std::optional<Vector2> operator()(const Vector2& z) {
+    p_[parameter_] = z[0];
+    std::optional<Reduced::Value> value = reduced_.at(p_, Vector::Constant(1, z[1]));
+    if (!value) return std::nullopt;
+    value_ = std::move(*value);
+    return Vector2(value_.y_parameter(0, 0), value_.y_alpha(0, 0));
+  }
+
+  std::optional<Matrix2> hessian(const Vector2& z, const Vector2& at_z, const Vector2& h) {
+    Matrix2 hessian;
+    for (int j = 0; j < 2; ++j) {
+      Vector2 shifted = z;
+      shifted[j] += h[j];
+      const std::optional<Vector2> value = (*this)(shifted);
+      if (!value) return std::nullopt;
+      hessian.col(j) = (*value - at_z) / h[j];
+    }
+    hessian(0, 1) = hessian(1, 0) = 0.5 * (hessian(0, 1) + hessian(1, 0));
+    return hessian;
+  }
+
+  const Reduced::Value& value() const { return value_; }
+
+ private:
+  Reduced& reduced_;
+  Vector p_;
+  Eigen::Index parameter_;
+  Reduced::Value value_;
+};
+
+// Directions (dλ, dα) with dᵀ H d = 0, for indefinite H.
+std::vector<Vector2> isotropic_directions(const Matrix2& h) {
+  const double discriminant = h(0, 1) * h(0, 1) - h(0, 0) * h(1, 1);
+  if (!(discriminant > 0.0)) return {};
+  std::vector<Vector2> directions;
+  for (const double root : {std::sqrt(discriminant), -std::sqrt(discriminant)}) {
+    const Vector2 one(-h(0, 1) + root, h(0, 0)), other(h(1, 1), -h(0, 1) - root);  // parallel; the longer is safer
+    directions.push_back((one.norm() > other.norm() ? one : other).normalized());
+  }
+  return directions;
+}
+
+std::optional<BranchPoint> polish_simple(Segment& segment, const Sample& lo, const Sample& hi, Reduced& reduced,
+                                         std::string& why) {
+  Problem& problem = *segment.problem();
+  const Options& options = segment.options();
+  const Eigen::Index parameter = options.parameter;
+  const double scale = options.parameter_scale, width = hi.s - lo.s;
+  Gradient gradient(reduced, lo.it.p, parameter);
+  Vector2 z(lo.it.p[parameter], 0.0);
+  const double h = std::clamp(0.05 * width, 1e-6, 1e-3);
+  const Vector2 steps(h * scale, h);
+  const double tolerance = options.location_tolerance * std::max(1.0, std::abs(z[0]));
+  Matrix2 hessian;
+  double previous = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 12; ++k) {
+    const std::optional<Vector2> value = gradient(z);
+    if (!value) return why = reduced.failure(), std::nullopt;
+    if (k < 2) {
+      const std::optional<Matrix2> fresh = gradient.hessian(z, *value, steps);
+      if (!fresh) return why = reduced.failure(), std::nullopt;
+      hessian = *fresh;
+      if (!(hessian.determinant() < 0.0))
+        return why = "no two branches cross here (the reduced equation is definite)", std::nullopt;
+    }
+    const Vector2 dz = -hessian.inverse() * *value;
+    const double size = std::hypot(dz[0] / scale, dz[1]);
+    if (!(size < 4.0 * width + 1e-6)) return why = "the branch point equations lead away", std::nullopt;
+    z += dz;
+    const bool small = std::abs(dz[0]) <= tolerance && size <= 1e-7 + tolerance;
+    if (small && (size <= 1e-2 * tolerance || size > 0.3 * previous || k == 11)) {
+      if (!gradient(z)) return why = reduced.failure(), std::nullopt;
+      BranchPoint point;
+      const Reduced::Value& at = gradient.value();
+      // y ≠ 0 at its saddle: an imperfect crossing, whose two parts are sqrt(|y|/|H|) apart.
+      if (std::sqrt(std::abs(at.y()[0]) / hessian.norm()) > 1e-5)
+        return why = "an imperfect branch point, the branches do not meet", std::nullopt;
+      point.x = at.it.x;
+      point.p = at.it.p;
+      point.u = at.it.u;
+      point.precision = std::max(std::abs(dz[0]), 4.0 * std::numeric_limits<double>::epsilon() * std::abs(z[0]));
+      point.polished = true;
+      point.null = reduced.refreshed(at);
+      for (const Vector2& d : isotropic_directions(hessian)) {
+        Tangent tangent{at.x_parameter.col(0) * d[0] + at.x_alpha.col(0) * d[1], d[0]};
+        normalise(problem, tangent, scale);
+        point.tangents.push_back(std::move(tangent));
+      }
+      const auto along = [&](const Tangent& t) { return std::abs(inner(problem, t, lo.tangent, scale)); };
+      if (along(point.tangents[1]) > along(point.tangents[0])) std::swap(point.tangents[0], point.tangents[1]);
+      return point;
+    }
+    previous = size;
+  }
+  return why = "Newton's method on the branch point equations does not converge", std::nullopt;
+}
+
+std::optional<BranchPoint> polish_multiple(Segment& segment, const Sample& lo, const Sample& hi, Reduced& reduced,
+                                           int multiplicity, std::string& why) {
+  const Options& options = segment.options();
+  const Eigen::Index parameter = options.parameter;
+  const Vector alpha = Vector::Zero(multiplicity);
+  Vector p = lo.it.p;
+  double a = lo.it.p[parameter], b = hi.it.p[parameter];
+  if (a == b) return why = "the parameter does not change over the bracket", std::nullopt;
+  const double span = std::abs(b - a);
+  std::optional<Reduced::Value> at_a = reduced.at(p, alpha);
+  p[parameter] = b;
+  std::optional<Reduced::Value> at_b = at_a ? reduced.at(p, alpha) : std::nullopt;
+  if (!at_b) return why = reduced.failure(), std::nullopt;
+  const Matrix weight = at_b->y_alpha - at_a->y_alpha;
+  const double slope = weight.norm() / span;
+  double f_a = weight.cwiseProduct(at_a->y_alpha).sum(), f_b = weight.cwiseProduct(at_b->y_alpha).sum();
+  const double tolerance = options.location_tolerance * std::max(1.0, std::abs(a));
+  double previous = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 20; ++k) {
+    if (f_a == f_b) return why = "the secant method stalls", std::nullopt;
+    const double c = b - f_b * (b - a) / (f_b - f_a), increment = std::abs(c - b);
+    if (!(increment < 4.0 * span)) return why = "the branch point equations lead away", std::nullopt;
+    p[parameter] = c;
+    const std::optional<Reduced::Value> at_c = reduced.at(p, alpha);
+    if (!at_c) return why = reduced.failure(), std::nullopt;
+    a = b;
+    f_a = f_b;
+    b = c;
+    f_b = weight.cwiseProduct(at_c->y_alpha).sum();
+    const bool stalled = increment <= tolerance && increment > 0.3 * previous;
+    if (increment <= 1e-2 * tolerance || f_b == 0.0 || stalled) {
+      const double spread = at_c->y_alpha.norm() / slope;
+      if (spread > 1e-6 * std::max(1.0, std::abs(c)))
+        return why = "several branch points close together", std::nullopt;
+      if (at_c->y().norm() > 1e-10 + 1e-8 * slope)
+        return why = "the kernel and the branch are not separated by symmetry", std::nullopt;
+      BranchPoint point;
+      point.x = at_c->it.x;
+      point.p = at_c->it.p;
+      point.u = at_c->it.u;
+      point.multiplicity = multiplicity;
+      point.polished = true;
+      point.precision = std::max(increment, 4.0 * std::numeric_limits<double>::epsilon() * std::abs(c));
+      point.null = reduced.refreshed(*at_c);
+      return point;
+    }
+    previous = increment;
+  }
+  return why = "the secant method does not converge", std::nullopt;
+}
+
+}  // namespace
+
+std::optional<BranchPoint> polish_branch_point(Segment& segment, const Sample& lo, const Sample& hi, int multiplicity,
+                                               std::string& why) {
+  Problem& problem = *segment.problem();
+  try {
+    NullVectors null = null_vectors(problem, lo.it.x, lo.it.p, multiplicity);
+    Reduced reduced(problem, segment.options(), lo.it.x, lo.it.p, std::move(null), {segment.options().parameter});
+    return multiplicity == 1 ? polish_simple(segment, lo, hi, reduced, why)
+                             : polish_multiple(segment, lo, hi, reduced, multiplicity, why);
+  } catch (const std::domain_error& error) {
+    why = error.what();
+  } catch (const std::runtime_error& error) {
+    why = error.what();
+  }
+  return std::nullopt;
+}
+
+}  // namespace continuation

@@ -1,0 +1,154 @@
+// What happens to a walker when its problem changes: events and adaptation.
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "continuation/walker.hpp"
+
+namespace continuation {
+namespace {
+
+Borders fixed_parameter(const Problem& problem, const Options& options) {
+  Borders fixed;
+  fixed.parameter = options.parameter;
+  fixed.scale = options.parameter_scale;
+  fixed.psi = Matrix(problem.size(), 0);
+  fixed.c = Matrix::Zero(problem.size(), 1);
+  fixed.d = Matrix::Ones(1, 1);
+  fixed.g = Vector::Zero(1);
+  return fixed;
+}
+
+}  // namespace
+
+void Walker::adapt() {
+  if (!std::exchange(adapt_pending_, false) || !options_.adapt) return;
+  // The new tangent is oriented by its parameter component, which says nothing next to a fold.
+  if (std::abs(tangent_.p) < 2.0 * std::abs(tangent_.p - previous_tangent_.p)) {
+    adapt_pending_ = true;
+    return;
+  }
+  try {
+    const std::optional<Vector> adapted = problem_->adapt(x_, p_);
+    if (!adapted) return;
+    const Tangent tangent = first_tangent(*problem_, *adapted, p_, options_, tangent_.p < 0.0 ? -1 : 1);
+    Segment segment(problem_, options_, *adapted, p_, tangent);
+    Sample* sample = segment.at(0.0, true);
+    if (!sample) return lose("after adapting the discretisation: " + segment.failure());
+    segment.add_events(*sample);
+    settle(segment, *sample);
+    previous_tangent_ = tangent_;
+  } catch (const std::domain_error& error) {
+    lose(std::string("adapting the discretisation: ") + error.what());
+  } catch (const std::runtime_error& error) {
+    lose(std::string("adapting the discretisation: ") + error.what());
+  }
+}
+
+void Walker::pass(Point event, std::size_t which, const std::string& name, int direction) {
+  const auto finish = [&](End::Kind kind, const std::string& reason) {
+    queue_.push_back(std::move(event));
+    pending_end_ = End{kind, reason};
+  };
+  if (events_in_place_ > 5) return finish(End::Kind::lost, "event " + name + ": events repeat without progress");
+  std::optional<Transition> transition;
+  std::string failure;
+  try {
+    transition = problem_->transition(which, x_, p_);
+  } catch (const std::domain_error& error) {
+    failure = std::string(": ") + error.what();
+  } catch (const std::runtime_error& error) {
+    failure = std::string(": ") + error.what();
+  }
+  if (!transition) return finish(End::Kind::lost, "event " + name + ": no continuation is known" + failure);
+  event.before = transition->before;
+  event.after = transition->after;
+  if (!transition->problem) return finish(End::Kind::event, "event " + name + " ends the branch");
+  if (!enter(transition->problem, transition->state, p_, direction, failure))
+    return finish(End::Kind::lost, "event " + name + ": " + failure);
+  event.index_after = index_;
+  event.next_problem = problem_->clone();
+  event.next_x = x_;
+  event.next_p = p_;
+  queue_.push_back(std::move(event));
+}
+
+// Corrects the new problem's state at p, or slightly beyond, and finds the direction in which it is valid.
+bool Walker::enter(std::shared_ptr<Problem> problem, const Vector& guess, const Vector& p, int direction,
+                   std::string& failure) {
+  const double step = step_length_.current() * options_.parameter_scale;
+  std::vector<double> offsets{0.0};
+  for (const int sign : {direction, -direction}) {
+    for (const double size : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) offsets.push_back(sign * size * step);
+  }
+  failure = "the new problem has no solution here";
+  const Options trial_options = [&] {
+    Options options = options_;
+    options.max_newton = std::max(options.max_newton, 15);
+    return options;
+  }();
+  for (const double offset : offsets) {
+    Vector at = p;
+    parameter(at) += offset;
+    Iterate it{guess, Vector::Zero(problem->size()), at, Vector::Zero(1)};
+    const CorrectorReport report = correct(*problem, fixed_parameter(*problem, options_), it, trial_options);
+    if (!report.converged) {
+      if (offset == 0.0) failure = "the new problem cannot be solved: " + report.failure;
+      continue;
+    }
+    try {
+      for (const int sign : {direction, -direction}) {
+        Tangent tangent = first_tangent(*problem, it.x, it.p, options_, sign);
+        if (!valid_direction(problem, it.x, it.p, tangent)) {
+          failure = "the new problem is not valid in either direction";
+          continue;
+        }
+        Segment segment(problem, options_, it.x, it.p, tangent);
+        Sample* sample = segment.at(0.0, true);
+        if (!sample) {
+          failure = segment.failure();
+          continue;
+        }
+        segment.add_events(*sample);
+        // Signs are read off the first point beyond: here the function that changed is zero up to roundoff.
+        signs_.clear();
+        settle(segment, *sample);
+        signs_.clear();
+        previous_tangent_ = tangent_;
+        // A short first step separates the zero just passed from the next event.
+        step_length_.reset(0.1 * step_length_.current());
+        return true;
+      }
+    } catch (const std::domain_error& error) {
+      failure = error.what();
+    } catch (const std::runtime_error& error) {
+      failure = error.what();
+    }
+  }
+  return false;
+}
+
+bool Walker::valid_direction(const std::shared_ptr<Problem>& problem, const Vector& x, const Vector& p,
+                             const Tangent& tangent) {
+  // A short step may still be within roundoff of the event, a long one beyond the next.
+  for (const double part : {0.1, 0.01, 1e-3, 1e-4, 1e-5}) {
+    Segment segment(problem, options_, x, p, tangent);
+    Sample* sample = segment.at(part * step_length_.current(), false);
+    if (!sample) continue;
+    segment.add_events(*sample);
+    const bool valid = std::all_of(sample->events.begin(), sample->events.end(), [&](const EventFunction& event) {
+      if (event.value >= -options_.event_zero) return true;
+      const auto before = std::find_if(events_.begin(), events_.end(),
+                                       [&](const EventFunction& old) { return old.name == event.name; });
+      // Negative already before the event, so not the event's doing.
+      return before != events_.end() && before->value < -1e3 * options_.event_zero;
+    });
+    if (valid) return true;
+  }
+  return false;
+}
+
+}  // namespace continuation

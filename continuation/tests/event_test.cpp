@@ -1,0 +1,169 @@
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "algebraic_problem.hpp"
+#include "walk.hpp"
+
+namespace {
+
+using namespace continuation;
+using namespace continuation::testing;
+
+// Spring against a stop: free x = p while the gap 1 - x is positive, then x = 1 held by a force f = p - 1 >= 0.
+// The free state has one unknown, the touching one two (x, f).
+std::shared_ptr<AlgebraicProblem> touching();
+
+std::shared_ptr<AlgebraicProblem> free_spring() {
+  auto problem = scalar([](double x, const Vector& p) { return x - std::sin(p[0]) * 1.5; });
+  problem->events_of = [](const Vector& x, const Vector& p) {
+    return std::vector<EventFunction>{{"far", 10.0 - p[0]}, {"gap", 1.0 - x[0]}};
+  };
+  problem->transition_of = [](std::size_t which, const Vector& x, const Vector&) -> std::optional<Transition> {
+    if (which != 1) return std::nullopt;
+    return Transition{touching(), vector({x[0], 0.0}), "free", "touch"};
+  };
+  return problem;
+}
+
+std::shared_ptr<AlgebraicProblem> touching() {
+  auto problem = std::make_shared<AlgebraicProblem>(2, [](const Vector& x, const Vector& p) {
+    return vector({x[0] + x[1] - std::sin(p[0]) * 1.5, x[0] - 1.0});
+  });
+  problem->events_of = [](const Vector& x, const Vector&) { return std::vector<EventFunction>{{"force", x[1]}}; };
+  problem->transition_of = [](std::size_t, const Vector& x, const Vector&) -> std::optional<Transition> {
+    return Transition{free_spring(), vector({x[0]}), "touch", "free"};
+  };
+  return problem;
+}
+
+BOOST_AUTO_TEST_SUITE(events)
+
+BOOST_AUTO_TEST_CASE(branch_goes_through_events_with_a_change_of_size) {
+  Options options;
+  options.target = 3.1;
+  Walker walker(free_spring(), vector({0.0}), vector({0.0}), options);
+  const auto points = walk(walker);
+  const auto events = of_type(points, PointType::event);
+  BOOST_REQUIRE_EQUAL(events.size(), 2u);
+  const double at = std::asin(1.0 / 1.5);
+  BOOST_TEST(std::abs(events[0].p[0] - at) < 2e-10);
+  BOOST_TEST(std::abs(events[1].p[0] - (M_PI - at)) < 2e-10);
+  BOOST_TEST(events[0].precision < 2e-10);
+  BOOST_TEST(events[0].event == "gap");
+  BOOST_TEST(events[1].event == "force");
+  BOOST_TEST(events[0].before == "free");
+  BOOST_TEST(events[0].after == "touch");
+  BOOST_TEST(events[0].x.size() == 1);
+  BOOST_TEST(events[0].next_x.size() == 2);
+  BOOST_TEST((walker.end().kind == End::Kind::target));
+  BOOST_TEST(points.back().p[0] == 3.1);
+  // Nowhere is the gap or the force negative beyond the location's tolerance.
+  for (const Point& point : points) {
+    for (const auto& event : point.problem->events(point.x, point.p)) BOOST_TEST(event.value > -1e-9);
+  }
+  BOOST_TEST(of_type(points, PointType::branch_point).empty());
+}
+
+BOOST_AUTO_TEST_CASE(several_events_in_one_step_come_in_order) {
+  auto problem = scalar([](double x, const Vector& p) { return x - p[0]; });
+  problem->events_of = [](const Vector& x, const Vector&) {
+    return std::vector<EventFunction>{{"late", 0.5 - x[0]}, {"early", std::cos(20.0 * x[0]) + 0.2 - 10.0 * x[0]}};
+  };
+  std::vector<std::size_t> seen;
+  problem->transition_of = [&](std::size_t which, const Vector&, const Vector&) -> std::optional<Transition> {
+    seen.push_back(which);
+    return Transition{nullptr, {}, "a", "b"};
+  };
+  Options options;
+  options.step = 1.0, options.step_max = 1.0;
+  Walker walker(problem, vector({-0.1}), vector({-0.1}), options);
+  const auto points = walk(walker);
+  BOOST_REQUIRE_EQUAL(seen.size(), 1u);
+  BOOST_TEST(seen[0] == 1u);
+  BOOST_TEST((walker.end().kind == End::Kind::event));
+  BOOST_TEST(walker.end().reason == "event early ends the branch");
+  BOOST_TEST((points.back().type == PointType::event));
+  const double x = points.back().x[0];
+  BOOST_TEST(std::abs(std::cos(20.0 * x) + 0.2 - 10.0 * x) < 1e-8);
+}
+
+BOOST_AUTO_TEST_CASE(unknown_continuation_is_a_lost_branch) {
+  auto problem = free_spring();
+  problem->transition_of = {};
+  Options options;
+  options.target = 3.1;
+  Walker walker(problem, vector({0.0}), vector({0.0}), options);
+  const auto points = walk(walker);
+  BOOST_TEST(walker.end().lost());
+  BOOST_TEST(walker.end().reason == "event gap: no continuation is known");
+  BOOST_TEST((points.back().type == PointType::event));
+}
+
+BOOST_AUTO_TEST_CASE(branch_may_turn_back_at_an_event) {
+  // Beyond x = 0.5 the law changes to p = 1 - x: the branch goes on with p falling (a corner, not a fold).
+  auto first = scalar([](double x, const Vector& p) { return x - p[0]; });
+  first->events_of = [](const Vector& x, const Vector&) {
+    return std::vector<EventFunction>{{"first", 0.5 - x[0]}};
+  };
+  auto second = scalar([](double x, const Vector& p) { return x - 1.0 + p[0]; });
+  second->events_of = [](const Vector& x, const Vector&) {
+    return std::vector<EventFunction>{{"second", x[0] - 0.5}};
+  };
+  first->transition_of = [second](std::size_t, const Vector& x, const Vector&) {
+    return std::optional(Transition{second, x, "first", "second"});
+  };
+  Options options;
+  options.lower = -1.0;
+  options.upper = 2.0;
+  Walker walker(first, vector({0.0}), vector({0.0}), options);
+  const auto points = walk(walker);
+  BOOST_TEST(of_type(points, PointType::event).size() == 1u);
+  BOOST_TEST(points.back().p[0] == -1.0);
+  BOOST_TEST(std::abs(points.back().x[0] - 2.0) < 1e-10);
+}
+
+BOOST_AUTO_TEST_CASE(event_with_no_valid_side_is_lost) {
+  auto first = free_spring();
+  first->transition_of = [](std::size_t, const Vector& x, const Vector&) {
+    auto bad = scalar([](double y, const Vector& p) { return y - p[0]; });
+    bad->events_of = [](const Vector&, const Vector&) { return std::vector<EventFunction>{{"never", -1.0}}; };
+    return std::optional(Transition{bad, x, "a", "b"});
+  };
+  Options options;
+  options.target = 3.0;
+  Walker walker(first, vector({0.0}), vector({0.0}), options);
+  walk(walker);
+  BOOST_TEST(walker.end().lost());
+  BOOST_TEST(walker.end().reason.find("not valid in either direction") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(ping_pong_is_not_endless) {
+  // Each problem claims to end where the other begins, on the same side.
+  std::shared_ptr<AlgebraicProblem> a, b;
+  const auto law = [](double x, const Vector& p) { return x - p[0]; };
+  a = scalar(law);
+  b = scalar(law);
+  a->events_of = [](const Vector& x, const Vector&) { return std::vector<EventFunction>{{"a", 0.5 - x[0]}}; };
+  b->events_of = [](const Vector& x, const Vector&) {
+    return std::vector<EventFunction>{{"b", std::max(-1.0, (0.5 - x[0]) * (x[0] - 0.5) * 1e12)}};
+  };
+  const auto copy = [](const std::shared_ptr<AlgebraicProblem>& problem) {
+    return std::make_shared<AlgebraicProblem>(*problem);
+  };
+  b->transition_of = [=](std::size_t, const Vector& x, const Vector&) {
+    return std::optional(Transition{copy(a), x, "b", "a"});
+  };
+  a->transition_of = [=](std::size_t, const Vector& x, const Vector&) {
+    return std::optional(Transition{copy(b), x, "a", "b"});
+  };
+  Options options;
+  options.target = 3.0;
+  options.max_points = 200;
+  Walker walker(a, vector({0.0}), vector({0.0}), options);
+  BOOST_TEST(walk(walker).size() < 250u);
+  BOOST_TEST(static_cast<bool>(walker.end()));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace
