@@ -1,0 +1,90 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "windlass/output/atomic_file.hpp"
+#include "windlass/output/point_store.hpp"
+#include "windlass/output/records.hpp"
+#include "windlass/scene/scene.hpp"
+
+/// The run folder: scene.toml, run.json, branches.csv, special_points.json, points.h5.
+///
+/// At every moment, also after SIGKILL or a full disk, the folder is readable. branches.csv grows by one write
+/// a row; the other files are replaced whole (temporary file + rename). points.h5 is replaced when a special
+/// point is recorded, at the end, and otherwise once a second or more seldom, such that writing it stays below
+/// 5 % of the run: a kill loses at most that last stretch of points.h5.
+namespace windlass::output {
+
+struct WriterOptions {
+  bool force = false;  ///< replace the run in an existing folder (foreign files are kept)
+  std::string command = "continue";
+  std::string version = "unknown";
+  std::string extra_parameter;  ///< dotted key that gets its own, last CSV column; empty: none
+  nlohmann::ordered_json options = nlohmann::ordered_json::object();
+};
+
+class RunWriter {
+ public:
+  /// Makes the folder (parents too) and its first files.
+  /// @throws OutputError when it holds something and force is false, or cannot be written
+  static RunWriter create(const std::filesystem::path& folder, const scene::Scene& scene,
+                          const WriterOptions& options);
+  /// Opens a stored run to go on. Rows and special points whose solution was not stored are dropped.
+  /// @throws OutputError when the folder cannot be read or written
+  static RunWriter resume(const std::filesystem::path& folder);
+
+  /// Rows are on disk on return; the solution at the next commit. @throws OutputError
+  void add_point(const BranchRow& row, const equilibrium::Solution& solution);
+  /// Commits all points, then special_points.json. @throws OutputError
+  void add_special_point(const SpecialPoint& point);
+  void add_lost_branch(const LostBranch& lost);
+  /// Gives a point that exists on disk its index and eigenvalues (branches.csv and points.h5).
+  void set_stability(const std::string& name, const equilibrium::Stability& stability);
+  /// Writes points.h5 and run.json now. @throws OutputError
+  void commit();
+  /// Final commit with status "finished", "interrupted" or "incomplete". @throws OutputError
+  void finish(const std::string& status, const Timings& timings, nlohmann::ordered_json summary);
+
+  const std::filesystem::path& folder() const { return folder_; }
+  const std::vector<BranchRow>& rows() const { return rows_; }
+  const std::vector<SpecialPoint>& special_points() const { return special_points_; }
+  const PointStore& points() const { return store_; }
+  RunInfo& info() { return info_; }
+
+ private:
+  RunWriter() = default;
+  void rewrite_branches();
+  void write_special_points() const;
+  void write_info() const;
+
+  std::filesystem::path folder_;
+  RunInfo info_;
+  AppendFile branches_;
+  std::vector<BranchRow> rows_;
+  std::vector<SpecialPoint> special_points_;
+  PointStore store_;
+  std::size_t committed_ = 0;
+  std::chrono::steady_clock::time_point last_commit_{};
+  std::chrono::duration<double> pause_{1.0};
+};
+
+/// Everything a run folder holds.
+struct Run {
+  std::filesystem::path folder;
+  std::string scene_toml;
+  RunInfo info;
+  std::vector<BranchRow> rows;
+  std::vector<SpecialPoint> special_points;
+  PointStore points;
+
+  /// Row of a stored point by label or "BRANCH-POINT". @throws OutputError when there is none
+  const BranchRow& row(const std::string& name) const;
+};
+
+/// @throws OutputError naming the file that is missing, unreadable or damaged
+Run read_run(const std::filesystem::path& folder, bool with_points = true);
+
+}  // namespace windlass::output

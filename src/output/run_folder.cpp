@@ -1,0 +1,196 @@
+#include "windlass/output/run_folder.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "windlass/output/branches_csv.hpp"
+#include "windlass/output/error.hpp"
+
+namespace windlass::output {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+namespace {
+
+constexpr const char* scene_file = "scene.toml";
+constexpr const char* info_file = "run.json";
+constexpr const char* branches_file = "branches.csv";
+constexpr const char* special_file = "special_points.json";
+constexpr const char* points_file = "points.h5";
+
+/// Makes the folder, or checks that an existing one may be written into.
+void prepare_folder(const fs::path& folder, bool force) {
+  std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error)) {
+    throw OutputError("cannot make the run folder " + folder.string() + ": a file of that name exists");
+  }
+  if (fs::is_directory(folder, error) && !fs::is_empty(folder, error) && !force) {
+    throw OutputError(
+        "the run folder " + folder.string() +
+        " exists and is not empty; use --force to replace the run in it, --resume to go on with it, "
+        "or --out to write elsewhere");
+  }
+  fs::create_directories(folder, error);
+  if (error) throw OutputError("cannot make the run folder " + folder.string() + ": " + error.message());
+}
+
+ordered_json parse_json(const fs::path& path) {
+  const std::string text = read_file(path);
+  try {
+    return ordered_json::parse(text);
+  } catch (const ordered_json::exception& error) {
+    throw OutputError("cannot read " + path.string() + ": it is truncated or not JSON (" + error.what() +
+                      ")");
+  }
+}
+
+/// Runs a conversion of already parsed JSON; a missing or mistyped key names the file.
+template <class Convert>
+auto convert_json(const fs::path& path, Convert convert) {
+  try {
+    return convert();
+  } catch (const ordered_json::exception& error) {
+    throw OutputError("cannot read " + path.string() + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+RunWriter RunWriter::create(const fs::path& folder, const scene::Scene& scene, const WriterOptions& options) {
+  prepare_folder(folder, options.force);
+  RunWriter writer;
+  writer.folder_ = folder;
+  writer.info_.version = options.version;
+  writer.info_.command = options.command;
+  writer.info_.scene = scene.name;
+  writer.info_.has_cylinder = scene.has_cylinder;
+  writer.info_.extra_parameter = options.extra_parameter;
+  writer.info_.options = options.options;
+  writer.info_.machine = describe_machine();
+  replace_file(folder / scene_file, std::string_view(scene.resolved_toml));
+  writer.rewrite_branches();
+  writer.write_special_points();
+  writer.commit();
+  return writer;
+}
+
+RunWriter RunWriter::resume(const fs::path& folder) {
+  Run run = read_run(folder);
+  RunWriter writer;
+  writer.folder_ = folder;
+  writer.info_ = std::move(run.info);
+  writer.info_.status = "running";
+  writer.store_ = std::move(run.points);
+  for (BranchRow& row : run.rows) {
+    if (writer.store_.find(point_name(row.branch, row.point, ""))) writer.rows_.push_back(std::move(row));
+  }
+  for (SpecialPoint& point : run.special_points) {
+    if (writer.store_.find(point.label)) writer.special_points_.push_back(std::move(point));
+  }
+  writer.committed_ = writer.store_.size();
+  writer.last_commit_ = std::chrono::steady_clock::now();
+  writer.rewrite_branches();
+  writer.write_special_points();
+  writer.write_info();
+  return writer;
+}
+
+void RunWriter::add_point(const BranchRow& row, const equilibrium::Solution& solution) {
+  store_.append({row.branch, row.point, row.label}, solution);
+  rows_.push_back(row);
+  branches_.append(csv_line(row, info_.has_cylinder, info_.extra_parameter));
+  if (std::chrono::steady_clock::now() - last_commit_ > pause_) commit();
+}
+
+void RunWriter::add_special_point(const SpecialPoint& point) {
+  special_points_.push_back(point);
+  // the solution first: a special point that is listed can always be restarted from
+  if (committed_ < store_.size()) commit();
+  write_special_points();
+}
+
+void RunWriter::add_lost_branch(const LostBranch& lost) {
+  info_.lost_branches.push_back(lost);
+  write_info();
+}
+
+void RunWriter::set_stability(const std::string& name, const equilibrium::Stability& stability) {
+  store_.set_stability(name, stability);
+  const PointStore::Key& key = store_.keys()[*store_.find(name)];
+  for (BranchRow& row : rows_) {
+    if (row.branch != key.branch || row.point != key.point) continue;
+    row.index = stability.index;
+    if (!stability.eigenvalues.empty()) row.eigenvalue_1 = stability.eigenvalues.front();
+  }
+  committed_ = 0;  // the file on disk is out of date
+}
+
+void RunWriter::commit() {
+  const auto begin = std::chrono::steady_clock::now();
+  store_.write(folder_ / points_file);
+  write_info();
+  committed_ = store_.size();
+  last_commit_ = std::chrono::steady_clock::now();
+  // at most 5 % of the time of a run goes into rewriting points.h5
+  pause_ = std::max(std::chrono::duration<double>(1.0),
+                    std::chrono::duration<double>(20.0 * (last_commit_ - begin)));
+}
+
+void RunWriter::finish(const std::string& status, const Timings& timings, ordered_json summary) {
+  info_.status = status;
+  info_.timings = timings;
+  info_.summary = std::move(summary);
+  if (committed_ != store_.size()) store_.write(folder_ / points_file);
+  rewrite_branches();
+  write_special_points();
+  write_info();
+  committed_ = store_.size();
+}
+
+void RunWriter::rewrite_branches() {
+  std::string text = csv_header(info_.has_cylinder, info_.extra_parameter);
+  for (const BranchRow& row : rows_) text += csv_line(row, info_.has_cylinder, info_.extra_parameter);
+  replace_file(folder_ / branches_file, std::string_view(text));
+  branches_ = AppendFile(folder_ / branches_file);
+}
+
+void RunWriter::write_special_points() const {
+  ordered_json list = ordered_json::array();
+  for (const SpecialPoint& point : special_points_) list.push_back(to_json(point));
+  replace_file(folder_ / special_file, std::string_view(list.dump(2) + "\n"));
+}
+
+void RunWriter::write_info() const {
+  replace_file(folder_ / info_file, std::string_view(to_json(info_).dump(2) + "\n"));
+}
+
+const BranchRow& Run::row(const std::string& name) const {
+  for (const BranchRow& row : rows) {
+    if (name == row.label || name == point_name(row.branch, row.point, "")) return row;
+  }
+  throw OutputError("there is no point \"" + name + "\" in " + (folder / branches_file).string());
+}
+
+Run read_run(const fs::path& folder, bool with_points) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) {
+    throw OutputError("cannot read the run folder " + folder.string() + ": no such folder");
+  }
+  Run run;
+  run.folder = folder;
+  run.scene_toml = read_file(folder / scene_file);
+  const ordered_json info = parse_json(folder / info_file);
+  run.info = convert_json(folder / info_file, [&] { return run_info_from_json(info); });
+  run.rows = read_branches(folder / branches_file, run.info.has_cylinder, run.info.extra_parameter);
+  const ordered_json special = parse_json(folder / special_file);
+  run.special_points = convert_json(folder / special_file, [&] {
+    std::vector<SpecialPoint> points;
+    for (const ordered_json& entry : special) points.push_back(special_point_from_json(entry));
+    return points;
+  });
+  if (with_points) run.points = PointStore::read(folder / points_file);
+  return run;
+}
+
+}  // namespace windlass::output

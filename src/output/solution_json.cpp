@@ -1,0 +1,171 @@
+#include "windlass/output/solution_json.hpp"
+
+#include <numbers>
+
+#include "windlass/output/error.hpp"
+#include "windlass/output/records.hpp"
+
+namespace windlass::output {
+
+using equilibrium::ArcRecord;
+using equilibrium::JointKind;
+using equilibrium::JointRecord;
+using equilibrium::Solution;
+using nlohmann::ordered_json;
+
+std::string arc_kind_name(const ArcRecord& arc) {
+  if (arc.kind == equilibrium::ArcKind::line) return "line";
+  return arc.role.empty() ? "gap" : arc.role;
+}
+
+namespace {
+constexpr std::pair<JointKind, const char*> joint_names[] = {{JointKind::end, "end"},
+                                                             {JointKind::touch, "touch"},
+                                                             {JointKind::edge, "edge"},
+                                                             {JointKind::infinity, "infinity"}};
+}  // namespace
+
+std::string joint_kind_name(JointKind kind) {
+  for (const auto& [value, name] : joint_names) {
+    if (value == kind) return name;
+  }
+  return "unknown";
+}
+
+JointKind joint_kind_from_name(const std::string& name) {
+  for (const auto& [value, known] : joint_names) {
+    if (known == name) return value;
+  }
+  throw OutputError("unknown kind of joint \"" + name + "\"");
+}
+
+namespace {
+
+ordered_json contact_json(const Solution& solution) {
+  ordered_json contact;
+  contact["topology"] = solution.topology;
+  contact["arcs"] = ordered_json::array();
+  for (const ArcRecord& arc : solution.arcs) {
+    contact["arcs"].push_back({{"kind", arc_kind_name(arc)},
+                               {"s_begin", finite_or_null(arc.s_begin)},
+                               {"s_end", finite_or_null(arc.s_end)},
+                               {"force", finite_or_null(arc.force)}});
+  }
+  contact["joints"] = ordered_json::array();
+  for (const JointRecord& joint : solution.joints) {
+    contact["joints"].push_back({{"kind", joint_kind_name(joint.kind)},
+                                 {"s", finite_or_null(joint.s)},
+                                 {"angle", finite_or_null(joint.angle)},
+                                 {"z", finite_or_null(joint.z)},
+                                 {"force", finite_or_null(joint.force)}});
+  }
+  return contact;
+}
+
+ordered_json stability_json(const Solution& solution) {
+  if (!solution.stability) return nullptr;
+  ordered_json json;
+  json["index"] = solution.stability->index;
+  json["eigenvalues"] = ordered_json::array();
+  for (const double value : solution.stability->eigenvalues)
+    json["eigenvalues"].push_back(finite_or_null(value));
+  json["degenerate"] = solution.stability->degenerate;
+  return json;
+}
+
+ordered_json parameters_json(const Solution& solution, const scene::Scene& scene) {
+  if (solution.has_cylinder)
+    return {{"T", finite_or_null(solution.T)}, {"phi", finite_or_null(solution.phi)}};
+  ordered_json json;
+  json["shortening"] = finite_or_null(solution.shortening);
+  json["thrust"] = finite_or_null(solution.end_force);
+  json["twist"] = finite_or_null(scene.ends.twist);
+  return json;
+}
+
+ordered_json quantity(double value, const char* unit) {
+  return {{"value", finite_or_null(value)}, {"unit", unit}};
+}
+
+/// The same quantities in newtons and millimetres; energies in millijoules (N mm).
+ordered_json physical_json(const Solution& solution, const scene::Units& units) {
+  constexpr double mm = 1e3, gram = 1e3, gravity = 9.80665;
+  ordered_json json;
+  if (solution.has_cylinder) {
+    const double tension = solution.T * units.force;
+    json["tension"] = quantity(tension, "N");
+    json["hung_mass"] = quantity(tension / gravity * gram, "g");
+    json["phi"] = quantity(solution.phi * 180.0 / std::numbers::pi, "deg");
+    json["R_tot"] = quantity(solution.R_tot * units.force, "N");
+    if (solution.F0) json["F0"] = quantity(*solution.F0 * units.force, "N");
+    json["phi_star"] = quantity(solution.phi_star * 180.0 / std::numbers::pi, "deg");
+    json["tilt"] = quantity(solution.tilt * 180.0 / std::numbers::pi, "deg");
+  } else {
+    json["end_force"] = quantity(solution.end_force * units.force, "N");
+    json["end_moment"] = quantity(solution.end_moment * units.moment * mm, "N mm");
+  }
+  json["z_span"] = quantity(solution.z_span * units.length * mm, "mm");
+  json["energy"] = quantity(solution.energy * units.energy * 1e3, "mJ");
+  ordered_json contact;
+  contact["arcs"] = ordered_json::array();
+  for (const ArcRecord& arc : solution.arcs) {
+    const double pressure = arc.p.size() > 0 ? arc.p.maxCoeff() : 0.0;
+    contact["arcs"].push_back({{"kind", arc_kind_name(arc)},
+                               {"s_begin", quantity(arc.s_begin * units.length * mm, "mm")},
+                               {"s_end", quantity(arc.s_end * units.length * mm, "mm")},
+                               {"force", quantity(arc.force * units.force, "N")},
+                               {"largest_pressure", quantity(pressure * units.pressure / mm, "N/mm")}});
+  }
+  contact["joints"] = ordered_json::array();
+  for (const JointRecord& joint : solution.joints) {
+    contact["joints"].push_back({{"kind", joint_kind_name(joint.kind)},
+                                 {"s", quantity(joint.s * units.length * mm, "mm")},
+                                 {"z", quantity(joint.z * units.length * mm, "mm")},
+                                 {"force", quantity(joint.force * units.force, "N")}});
+  }
+  if (solution.has_cylinder) json["contact"] = contact;
+  json["scales"] = {{"length", quantity(units.length * mm, "mm")},
+                    {"force", quantity(units.force, "N")},
+                    {"moment", quantity(units.moment * mm, "N mm")},
+                    {"pressure", quantity(units.pressure / mm, "N/mm")}};
+  return json;
+}
+
+}  // namespace
+
+ordered_json to_json(const Solution& solution, const scene::Scene& scene) {
+  ordered_json json;
+  json["parameters"] = parameters_json(solution, scene);
+  json["model"] = solution.model;
+  json["model_reason"] = solution.model_reason;
+  json["converged"] = solution.converged;
+  json["newton_iterations"] = solution.newton_iterations;
+  if (solution.has_cylinder) {
+    json["R_tot"] = finite_or_null(solution.R_tot);
+    if (solution.F0) json["F0"] = finite_or_null(*solution.F0);
+    json["phi_star"] = finite_or_null(solution.phi_star);
+  } else {
+    json["end_force"] = finite_or_null(solution.end_force);
+    json["end_moment"] = finite_or_null(solution.end_moment);
+    json["shortening"] = finite_or_null(solution.shortening);
+  }
+  json["tilt"] = finite_or_null(solution.tilt);
+  json["z_span"] = finite_or_null(solution.z_span);
+  json["energy"] = finite_or_null(solution.energy);
+  if (solution.has_cylinder) json["contact"] = contact_json(solution);
+  json["stability"] = stability_json(solution);
+  json["invariants"] = {{"hamiltonian_drift", finite_or_null(solution.invariants.hamiltonian_drift)},
+                        {"axial_torque_drift", finite_or_null(solution.invariants.axial_torque_drift)},
+                        {"force_residual", finite_or_null(solution.invariants.force_residual)}};
+  json["error_estimate"] = finite_or_null(solution.error_estimate);
+  json["mesh"] = {{"elements", solution.mesh.elements},
+                  {"stages", solution.mesh.stages},
+                  {"unknowns", solution.mesh.unknowns}};
+  json["seconds"] = {{"solve", finite_or_null(solution.seconds_solve)},
+                     {"stability", finite_or_null(solution.seconds_stability)},
+                     {"total", finite_or_null(solution.seconds_total)}};
+  if (scene.units) json["physical"] = physical_json(solution, *scene.units);
+  return json;
+}
+
+}  // namespace windlass::output
