@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <memory>
+
+#include "windlass/equilibrium/solution.hpp"
+#include "windlass/scene/scene.hpp"
+
+namespace windlass::verify {
+
+/// State of a cross-section in the world frame: position [ρ], quaternion (w, x, y, z), moment [EI/ρ], force [EI/ρ²].
+struct Section {
+  Eigen::Vector3d r = Eigen::Vector3d::Zero();
+  Eigen::Vector4d q = {1, 0, 0, 0};
+  Eigen::Vector3d m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d n = Eigen::Vector3d::Zero();
+};
+
+/// Material law m_body = K (u - û), K = diag(EI1, EI2, GJ).
+struct Stiffness {
+  Eigen::Vector3d K = {1, 1, 1};
+  Eigen::Vector3d u_hat = {0, 0, 0};
+
+  explicit Stiffness(const scene::Rod& rod);
+  Eigen::Vector3d strain(const Section& section) const;  ///< u, body frame [1/ρ]
+  double energy_density(const Section& section) const;   ///< W = ½ (u-û)·K(u-û)
+  double hamiltonian(const Section& section) const;      ///< H = m·u - W + n·d3
+};
+
+Eigen::Matrix3d rotation(const Eigen::Vector4d& q);  ///< columns d1, d2, d3
+Eigen::Vector3d tangent(const Section& section);     ///< d3
+
+/// Contact force per length that keeps the centreline on the unit cylinder.
+///
+/// With N = (x, y, 0) and t = d3 the constraint ½(x²+y²) = ½ has the derivative h = N·t; three more derivatives along
+/// an isotropic, naturally straight rod (t' = w = m×t/B, m' = n×t, n' = -pN) bring in p linearly:
+///   h' = |t_h|² + N·w,  h'' = 3 t_h·w_h + N·w',  h''' = 3|w_h|² + 4 t_h·w'_h + N·w'' = 0,
+/// where v_h is the horizontal part of v. This uses moments and forces only, not the surface coordinates that the
+/// solver uses, so it is an independent statement of the same mechanics.
+double surface_pressure(const Section& section, double bending_stiffness);
+
+/// Integrates the balance laws along one arc with CVODE.
+///
+/// free: r' = d3, q' = ½ q⊗(0,u), m' = n×d3, n constant. line: the same with n' = -p N and p = surface_pressure.
+/// Move-only owner of its CVODE memory.
+class RodFlow {
+ public:
+  /// @throws std::runtime_error when CVODE cannot be set up
+  RodFlow(const Stiffness& stiffness, equilibrium::ArcKind kind);
+  RodFlow(RodFlow&&) noexcept;
+  RodFlow& operator=(RodFlow&&) noexcept;
+  ~RodFlow();
+
+  /// Begins at section `start`, s = 0.
+  void restart(const Section& start);
+  /// Goes on to s > 0 counted from the restart, larger than before. @throws std::runtime_error when CVODE gives up
+  Section advance(double s);
+  /// ∫ p ds since the restart [EI/ρ²]
+  double contact_force() const;
+
+ private:
+  struct Memory;
+  std::unique_ptr<Memory> memory_;
+};
+
+}  // namespace windlass::verify

@@ -1,0 +1,145 @@
+#include <numbers>
+
+#include "checks.hpp"
+
+namespace windlass::verify {
+
+using Eigen::Vector3d;
+using equilibrium::ArcRecord;
+using equilibrium::JointKind;
+using equilibrium::JointRecord;
+using equilibrium::Solution;
+
+void check_joints(const Solution& solution, const scene::Scene&, const Scales& scales, CheckList& list) {
+  Largest position, frame, moment, force, surface, tangency;
+  Smallest contact;
+  for (std::size_t k = 0; k < solution.joints.size(); ++k) {
+    const JointRecord& joint = solution.joints[k];
+    const bool in_contact = joint.kind == JointKind::touch || joint.kind == JointKind::edge;
+    if (in_contact) contact.add(joint.force / scales.force);
+    if (k == 0 || k + 1 == solution.joints.size()) continue;
+    const Section before = last_section(solution.arcs[k - 1]), after = first_section(solution.arcs[k]);
+    position.add((before.r - after.r).norm());
+    position.add((joint.r - after.r).norm());
+    frame.add(frame_distance(before.q, after.q));
+    moment.add((before.m - after.m).norm() / scales.moment);
+    Vector3d jump = after.n - before.n;
+    if (in_contact) {
+      // balance of the joint: n(after) - n(before) + f N = 0
+      jump += joint.force * outward_normal(after.r);
+      surface.add(std::abs(std::hypot(after.r.x(), after.r.y()) - 1.0));
+      tangency.add(std::abs(outward_normal(after.r).dot(tangent(after))));
+    }
+    force.add(jump.norm() / scales.force);
+  }
+  list.at_most("joint_position", position.value(), tight,
+               "jump of r at joints, and against the joint's own r");
+  list.at_most("joint_frame", frame.value(), tight, "jump of q at joints");
+  list.at_most("joint_moment", moment.value(), tight, "jump of m at joints, / max(1, sqrt(T))");
+  list.at_most("joint_force", force.value(), tight, "jump of n plus contact force at joints, / max(1, T)");
+  if (!contact.any()) return;
+  list.at_least("point_force", contact.value(), -tight, "smallest contact point force, / max(1, T)");
+  list.at_most("contact_position", surface.value(), tight, "distance of touches and edges from the cylinder");
+  list.at_most("tangency", tangency.value(), tight, "slope to the cylinder at touches and edges");
+}
+
+namespace {
+
+/// One end of the rod: the section there, the pull that acts on it, and what sign n has.
+struct End {
+  const JointRecord& joint;
+  Section section;
+  Vector3d pull;  // external force on the end
+  double side;    // +1 at s = L/2, where n = pull; -1 at s = -L/2, where n = -pull
+};
+
+/// The frame of a clamped end: tangent along the pull and no turn about it from the planar frame, d2 = -e_z.
+double clamp_error(const End& end) {
+  const Eigen::Matrix3d d = rotation(end.section.q);
+  const Vector3d along = end.side * end.pull.normalized();
+  return std::max((d.col(2) - along).norm(), (d.col(1) + Vector3d::UnitZ()).norm());
+}
+
+void check_capstan_ends(const End (&ends)[2], const scene::Scene& scene, const Scales& scales,
+                        CheckList& list) {
+  Largest pull, moment, clamp;
+  bool finite_end = false;
+  for (const End& end : ends) {
+    pull.add((end.side * end.section.n - end.pull).norm() / scales.force);
+    if (end.joint.kind == JointKind::infinity) continue;
+    finite_end = true;
+    if (scene.ends.kind == scene::EndKind::moment_free) {
+      moment.add(end.section.m.norm() / scales.moment);
+    } else {
+      clamp.add(clamp_error(end));
+    }
+  }
+  list.at_most("end_pull", pull.value(), tight, "internal force at the ends against the pulls, / max(1, T)");
+  if (!finite_end) return;
+  if (scene.ends.kind == scene::EndKind::moment_free) {
+    list.at_most("end_moment", moment.value(), tight, "moment at moment-free ends, / max(1, sqrt(T))");
+  } else {
+    list.at_most("end_clamp", clamp.value(), tight, "frame of clamped ends against the pull and the plane");
+  }
+}
+
+void check_strut_ends(const End (&ends)[2], const scene::Scene& scene, const Scales& scales,
+                      CheckList& list) {
+  Largest direction;
+  for (const End& end : ends) {
+    if (scene.ends.kind == scene::EndKind::moment_free) {
+      direction.add(end.section.m.norm() / scales.moment);
+    } else {
+      direction.add((tangent(end.section) - Vector3d::UnitX()).norm());
+    }
+  }
+  const bool pinned = scene.ends.kind == scene::EndKind::moment_free;
+  list.at_most(pinned ? "end_moment" : "end_clamp", direction.value(), tight,
+               pinned ? "moment at moment-free ends" : "tangent of clamped ends against e_x");
+}
+
+}  // namespace
+
+void check_ends(const Solution& solution, const scene::Scene& scene, const Scales& scales, CheckList& list) {
+  const Vector3d right(std::cos(solution.phi / 2), std::sin(solution.phi / 2), 0.0);
+  const Vector3d left(-right.x(), right.y(), 0.0);
+  const End ends[2] = {
+      {solution.joints.front(), first_section(solution.arcs.front()), solution.T * left, -1.0},
+      {solution.joints.back(), last_section(solution.arcs.back()), solution.T * right, 1.0}};
+  if (solution.has_cylinder) {
+    check_capstan_ends(ends, scene, scales, list);
+  } else {
+    check_strut_ends(ends, scene, scales, list);
+  }
+}
+
+void check_totals(const Solution& solution, const scene::Scene&, const Scales& scales, CheckList& list) {
+  if (!solution.has_cylinder) {
+    const Section end = last_section(solution.arcs.back());
+    list.at_most("end_force", std::abs(solution.end_force + end.n.x()) / scales.force, tight,
+                 "reported thrust against -n·e_x at the end, / max(1, thrust)");
+    const double length = solution.arcs.back().s_end - solution.arcs.front().s_begin;
+    const double chord = (end.r - first_section(solution.arcs.front()).r).x();
+    list.at_most("shortening", std::abs(solution.shortening - (1.0 - chord / length)), tight,
+                 "reported shortening against the distance of the ends along e_x");
+    return;
+  }
+  double sum = 0.0, first = 0.0, last = 0.0;
+  bool any = false;
+  for (const ArcRecord& arc : solution.arcs) sum += arc.force;
+  for (const JointRecord& joint : solution.joints) {
+    if (joint.kind != JointKind::touch && joint.kind != JointKind::edge) continue;
+    sum += joint.force;
+    if (!any) first = joint.angle;
+    last = joint.angle;
+    any = true;
+  }
+  list.at_most("total_contact_force", std::abs(sum - solution.R_tot) / std::max(scales.force, sum), tight,
+               "reported R_tot against the sum of all contact forces, / max(1, T, R_tot)");
+  if (any) {
+    list.at_most("contact_angle", std::abs(0.5 * (last - first) - solution.phi_star), tight,
+                 "reported phi_star against the outermost contacts");
+  }
+}
+
+}  // namespace windlass::verify
