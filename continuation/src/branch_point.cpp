@@ -148,14 +148,12 @@ std::optional<BranchPoint> polish_multiple(Segment& segment, const Sample& lo, c
       const double spread = at_c->y_alpha.norm() / slope;
       if (spread > 1e-6 * std::max(1.0, std::abs(c)))
         return why = "several branch points close together", std::nullopt;
-      if (at_c->y().norm() > 1e-10 + 1e-8 * slope)
-        return why = "the kernel and the branch are not separated by symmetry", std::nullopt;
       BranchPoint point;
+      point.polished = true;
       point.x = at_c->it.x;
       point.p = at_c->it.p;
       point.u = at_c->it.u;
       point.multiplicity = multiplicity;
-      point.polished = true;
       point.precision = std::max(increment, 4.0 * std::numeric_limits<double>::epsilon() * std::abs(c));
       point.null = reduced.refreshed(*at_c);
       return point;
@@ -172,9 +170,22 @@ std::optional<BranchPoint> polish_branch_point(Segment& segment, const Sample& l
   Problem& problem = *segment.problem();
   try {
     NullVectors null = null_vectors(problem, lo.it.x, lo.it.p, multiplicity);
-    Reduced reduced(problem, segment.options(), lo.it.x, lo.it.p, std::move(null), {segment.options().parameter});
-    return multiplicity == 1 ? polish_simple(segment, lo, hi, reduced, why)
-                             : polish_multiple(segment, lo, hi, reduced, multiplicity, why);
+    // α = 0 is the branch only if φ spans the kernel exactly: refreshed until the point no longer moves.
+    double last = std::numeric_limits<double>::quiet_NaN();
+    for (int round = 0; round < 5; ++round) {
+      Reduced reduced(problem, segment.options(), lo.it.x, lo.it.p, null, {segment.options().parameter});
+      if (multiplicity == 1) return polish_simple(segment, lo, hi, reduced, why);
+      std::optional<BranchPoint> point = polish_multiple(segment, lo, hi, reduced, multiplicity, why);
+      if (!point) return point;
+      const double found = point->p[segment.options().parameter], moved = std::abs(found - last);
+      if (moved <= segment.options().location_tolerance * std::max(1.0, std::abs(found))) {
+        point->precision = std::max(point->precision, moved);
+        return point;
+      }
+      last = found;
+      null = point->null;
+    }
+    why = "the kernel and the branch are not separated by symmetry";
   } catch (const std::domain_error& error) {
     why = error.what();
   } catch (const std::runtime_error& error) {

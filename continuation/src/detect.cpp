@@ -141,7 +141,13 @@ void search(Segment& segment, const Sample& lo, const Sample& hi, int depth, std
       located.hi = hi.s;
       const double ds = segment.path_length(point->u, point->p[parameter] - lo.it.p[parameter]);
       const double part = ds / (hi.s - lo.s);
-      if (part > -0.5 && part < 1.5) {
+      const bool again = std::any_of(found.begin(), found.end(), [&](const Located& other) {
+        return other.branch_point && (other.branch_point->x - point->x).norm() <= 1e-8 * (1.0 + point->x.norm()) &&
+               std::abs(other.branch_point->p[parameter] - point->p[parameter]) <= 100.0 * tolerance(segment);
+      });
+      // A little slack only: of two points close together each bracket must yield its own.
+      const double slack = 0.01 + 1e-7 / (hi.s - lo.s);
+      if (part > -slack && part < 1.0 + slack && !again) {
         located.s = lo.s + std::clamp(part, 0.0, 1.0) * (hi.s - lo.s);
         located.precision = point->precision;
         located.index = lo.index;
