@@ -38,6 +38,19 @@ class Gradient {
     return hessian;
   }
 
+  // Symmetric in ±h, so that the arms of a pitchfork come out as exact mirror images.
+  std::optional<Matrix2> central_hessian(const Vector2& z, const Vector2& h) {
+    Matrix2 hessian;
+    for (int j = 0; j < 2; ++j) {
+      const Vector2 shift = h[j] * Vector2::Unit(j);
+      const std::optional<Vector2> above = (*this)(z + shift), below = (*this)(z - shift);
+      if (!above || !below) return std::nullopt;
+      hessian.col(j) = (*above - *below) / (2.0 * h[j]);
+    }
+    hessian(0, 1) = hessian(1, 0) = 0.5 * (hessian(0, 1) + hessian(1, 0));
+    return hessian;
+  }
+
   const Reduced::Value& value() const { return value_; }
 
  private:
@@ -88,6 +101,7 @@ std::optional<BranchPoint> polish_simple(Segment& segment, const Sample& lo, con
     z += dz;
     const bool small = std::abs(dz[0]) <= tolerance && size <= 1e-7 + tolerance;
     if (small && (size <= 1e-2 * tolerance || size > 0.3 * previous || k == 11)) {
+      if (const std::optional<Matrix2> fresh = gradient.central_hessian(z, steps)) hessian = *fresh;
       if (!gradient(z)) return why = reduced.failure(), std::nullopt;
       BranchPoint point;
       const Reduced::Value& at = gradient.value();
@@ -100,7 +114,9 @@ std::optional<BranchPoint> polish_simple(Segment& segment, const Sample& lo, con
       point.precision = std::max(std::abs(dz[0]), 4.0 * std::numeric_limits<double>::epsilon() * std::abs(z[0]));
       point.polished = true;
       point.null = reduced.refreshed(at);
-      for (const Vector2& d : isotropic_directions(hessian)) {
+      const std::vector<Vector2> directions = isotropic_directions(hessian);
+      if (directions.empty()) return why = "no two branches cross here (the reduced equation is definite)", std::nullopt;
+      for (const Vector2& d : directions) {
         Tangent tangent{at.x_parameter.col(0) * d[0] + at.x_alpha.col(0) * d[1], d[0]};
         normalise(problem, tangent, scale);
         point.tangents.push_back(std::move(tangent));

@@ -43,7 +43,7 @@ struct Point {
 
 /// Why a walk is over.
 struct End {
-  enum class Kind { none, target, bound, event, closed, max_points, stopped, lost };
+  enum class Kind { none, target, bound, event, closed, joined, max_points, stopped, lost };
   Kind kind = Kind::none;
   std::string reason;  ///< readable; for `lost` it says what failed
 

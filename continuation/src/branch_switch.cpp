@@ -1,0 +1,100 @@
+#include "continuation/branch_switch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace continuation {
+
+bool same_fingerprint(const Vector& a, const Vector& b, double tolerance) {
+  if (a.size() != b.size()) return false;
+  const double n = std::max<double>(1.0, static_cast<double>(a.size()));
+  return (a - b).norm() <= tolerance * std::max(std::sqrt(n), a.norm());
+}
+
+std::optional<Arm> start_arm(const Point& branch_point, const Tangent& direction, double epsilon,
+                             const Options& options, std::string& failure) {
+  const double scale = options.parameter_scale;
+  try {
+    Arm arm;
+    arm.problem = branch_point.problem->clone();
+    Options patient = options;
+    patient.max_newton = std::max(options.max_newton, 15);
+    Segment segment(arm.problem, patient, branch_point.x, branch_point.p, direction);
+    Sample* sample = segment.at(epsilon, true);
+    if (!sample) return failure = segment.failure(), std::nullopt;
+    const Tangent way{sample->it.u, sample->it.y[0]};
+    const double length = std::sqrt(inner(*arm.problem, way, way, scale));
+    const double along = std::abs(inner(*arm.problem, way, direction, scale)) / length;
+    const double known = std::abs(inner(*arm.problem, way, branch_point.tangent, scale)) / length;
+    if (along < 0.8 || (branch_point.branch_point && along <= known))
+      return failure = "the solution found is not on the arm", std::nullopt;
+    segment.add_events(*sample);
+    for (const EventFunction& event : sample->events) {
+      if (event.value < -options.event_zero)
+        return failure = "the arm is not valid: event " + event.name + " is negative on it", std::nullopt;
+    }
+    arm.x = sample->it.x;
+    arm.p = sample->it.p;
+    arm.tangent = sample->tangent;
+    arm.epsilon = epsilon;
+    return arm;
+  } catch (const std::domain_error& error) {
+    failure = error.what();
+  } catch (const std::runtime_error& error) {
+    failure = error.what();
+  }
+  return std::nullopt;
+}
+
+Arms switch_branch(const Point& branch_point, const Options& options) {
+  Arms arms;
+  std::vector<Tangent> directions;
+  try {
+    Problem& problem = *branch_point.problem;
+    if (branch_point.branch_point && branch_point.branch_point->tangents.size() == 2) {
+      directions.push_back(branch_point.branch_point->tangents[1]);
+    } else {
+      const Matrix kernel =
+          branch_point.branch_point
+              ? branch_point.branch_point->null.right
+              : null_vectors(problem, branch_point.x, branch_point.p, std::max(1, branch_point.multiplicity)).right;
+      for (Vector& d : problem.kernel_directions(branch_point.x, branch_point.p, kernel))
+        directions.push_back(Tangent{std::move(d), 0.0});
+    }
+    for (Tangent& direction : directions) normalise(problem, direction, options.parameter_scale);
+  } catch (const std::domain_error& error) {
+    arms.failures.emplace_back(error.what());
+  } catch (const std::runtime_error& error) {
+    arms.failures.emplace_back(error.what());
+  }
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    for (const int sign : {1, -1}) {
+      const Tangent direction{sign * directions[i].x, sign * directions[i].p};
+      std::optional<Arm> arm;
+      std::string failure;
+      for (const double part : {0.2, 0.05, 0.5, 0.01, 1e-3}) {
+        arm = start_arm(branch_point, direction, part * options.step, options, failure);
+        if (arm) break;
+      }
+      if (!arm) {
+        arms.failures.push_back("direction " + std::to_string(i + 1) + (sign > 0 ? " (+): " : " (-): ") + failure);
+        continue;
+      }
+      const Vector fingerprint = arm->problem->fingerprint(arm->x, arm->p);
+      const auto twin = std::find_if(arms.arms.begin(), arms.arms.end(), [&](const Arm& other) {
+        return other.epsilon == arm->epsilon && same_fingerprint(other.p, arm->p, 1e-7) &&
+               same_fingerprint(other.problem->fingerprint(other.x, other.p), fingerprint, 1e-7);
+      });
+      if (twin == arms.arms.end()) {
+        arms.arms.push_back(std::move(*arm));
+      } else {
+        ++twin->count;
+      }
+    }
+  }
+  return arms;
+}
+
+}  // namespace continuation
