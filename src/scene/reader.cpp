@@ -54,13 +54,24 @@ class Resolver {
     return key.dimension == Dimension::of_parameter ? *find_key(scene_.continuation->parameter) : key;
   }
 
+  /// In a physical scene every length, force and so on has a unit; only 0 and "inf" need none.
+  void check_all_have_units() const {
+    for (const Entry& entry : document_.entries) {
+      const Key& key = *find_key(entry.key);
+      const Key& like = meaning(key);
+      if (key.kind == ValueKind::text || !is_dimensional(like.dimension)) continue;
+      const Number number = read_number(entry, key, like.dimension, like.range);
+      const bool bare = !number.has_unit && std::isfinite(number.value) && number.value != 0.0;
+      if (bare && (physical_ || key.name == "rod.youngs_modulus"))
+        throw SceneError(entry.prefix() + needs_unit(like));
+    }
+  }
+
   double in_si(const char* name) const {
     const Entry* entry = document_.find(name);
     if (!entry) throw missing(document_, name, "a physical scene needs it");
     const Key& key = *find_key(name);
-    const Number number = read_number(*entry, key, key.dimension, key.range);
-    if (!number.has_unit) throw SceneError(entry->prefix() + needs_unit(key));
-    return number.value;
+    return read_number(*entry, key, key.dimension, key.range).value;
   }
 
   std::string needs_unit(const Key& key) const {
@@ -88,6 +99,7 @@ class Resolver {
       const Dimension dimension = meaning(*find_key(entry.key)).dimension;
       if (!physical_ && is_written_with_unit(entry, dimension)) physical_ = &entry;
     }
+    check_all_have_units();
     if (physical_) scene_.units = Units::of(unit_of_length(), bending_stiffness());
   }
 
@@ -119,11 +131,7 @@ class Resolver {
     const Key& like = meaning(key);
     const Number number = read_number(entry, key, like.dimension, like.range);
     double value = number.value;
-    if (is_dimensional(like.dimension) && std::isfinite(value)) {
-      if (!number.has_unit && ((scene_.units && !resolved_) || key.name == "rod.youngs_modulus"))
-        throw SceneError(entry.prefix() + needs_unit(like));
-      if (number.has_unit) value /= scale_of(*scene_.units, like.dimension);
-    }
+    if (number.has_unit) value /= scale_of(*scene_.units, like.dimension);
     if (key.set) key.set(scene_, value);
   }
 

@@ -40,8 +40,6 @@ void check_capstan(const Document& document, const Scene& scene) {
           fmt::format("{}must be {} = 1 - rod.radius: without units lengths are in units of rod plus "
                       "{}",
                       radius->prefix(), expected, key.name));
-  } else if (document.find("scale.length")) {
-    forbid(document, "cylinder.radius", "must not be given beside scale.length, which contains it");
   }
 }
 
@@ -90,6 +88,9 @@ SceneError missing(const Document& document, const std::string& key, const std::
 void check_rules(const Document& document, const Scene& scene) {
   if (!document.find("rod.length"))
     throw missing(document, "rod.length", fmt::format("{}", find_key("rod.length")->allowed()));
+  if (document.find("scale.length"))
+    for (const char* key : {"cylinder.radius", "rod.youngs_modulus"})
+      forbid(document, key, "must not be given beside [scale], which contains it already");
   if (scene.has_cylinder)
     check_capstan(document, scene);
   else
