@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace windlass::output {
+
+/// Lines that open a picture for every format: a gnuplot loop over formats, body, and its end.
+struct Picture {
+  std::string stem;     ///< file name without extension
+  double width = 7.0;   ///< [inch]
+  double height = 5.0;  ///< [inch]
+  std::string body;     ///< gnuplot commands between `set output` and its closing
+};
+
+/// Writes STEM.gp in `folder` and runs gnuplot on it there. @return the pictures made
+/// @throws OutputError when the script cannot be written, gnuplot is missing, or it reports an error (quoted)
+std::vector<std::filesystem::path> run_gnuplot(const Picture& picture, const std::filesystem::path& folder,
+                                               const std::vector<std::string>& formats);
+
+/// Text in single quotes for gnuplot; in enhanced text mode _, ^, @, {, } and & lose their meaning.
+std::string gnuplot_text(const std::string& text, bool enhanced = true);
+
+}  // namespace windlass::output

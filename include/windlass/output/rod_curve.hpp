@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "windlass/equilibrium/solution.hpp"
+
+namespace windlass::output {
+
+/// A rod made dense enough to draw: cubic through the stored samples of each arc (tangents are known).
+struct RodCurve {
+  std::vector<double> s;           ///< [ρ]
+  std::vector<Eigen::Vector3d> r;  ///< [ρ]
+  std::vector<double> p;           ///< [EI/ρ³]
+  std::vector<std::size_t> arc;    ///< which arc a place belongs to; both sides of a joint are present
+};
+
+struct PointForce {
+  double s = 0.0;                ///< [ρ]
+  Eigen::Vector3d r, direction;  ///< outward normal, the direction of the force on the rod
+  double size = 0.0;             ///< [EI/ρ²]
+};
+
+/// @param spacing  largest distance of neighbouring places [ρ], where it needs less than 40 places a sample
+RodCurve dense_curve(const equilibrium::Solution& solution, double spacing = 0.03);
+
+/// Touches and edges, with their forces.
+std::vector<PointForce> point_forces(const equilibrium::Solution& solution);
+
+}  // namespace windlass::output

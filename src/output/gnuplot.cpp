@@ -1,0 +1,89 @@
+#include "windlass/output/gnuplot.hpp"
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include "windlass/output/atomic_file.hpp"
+#include "windlass/output/error.hpp"
+
+namespace windlass::output {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string script_text(const Picture& picture, const std::vector<std::string>& formats) {
+  std::string names;
+  for (const std::string& format : formats) names += (names.empty() ? "" : " ") + format;
+  char sizes[400];
+  // one typeface and size for all formats: 11 points on paper, the PNG at 150 dots an inch
+  std::snprintf(sizes, sizeof sizes,
+                "  if (kind eq 'png') { set terminal pngcairo enhanced rounded size %.0f,%.0f font 'DejaVu "
+                "Sans,10' fontscale "
+                "1.5 linewidth 1.5 }\n"
+                "  if (kind eq 'svg') { set terminal svg enhanced rounded size %.0f,%.0f font 'DejaVu "
+                "Sans,10' background "
+                "'white' }\n"
+                "  if (kind eq 'pdf') { set terminal pdfcairo enhanced rounded size %.2fin,%.2fin font "
+                "'DejaVu Sans,10' }\n",
+                picture.width * 150, picture.height * 150, picture.width * 96, picture.height * 96,
+                picture.width, picture.height);
+  return "# Makes " + picture.stem + ".{" + names + "}: run  gnuplot " + picture.stem +
+         ".gp  in this folder.\n" + "set encoding utf8\nset minussign\n" + "do for [kind in '" + names +
+         "'] {\n" + sizes + "  set output '" + picture.stem + ".'.kind\n" + picture.body +
+         "  unset output\n  reset\n  set encoding utf8\n  set minussign\n}\n";
+}
+
+/// Text for a shell, in single quotes.
+std::string shell_text(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+}  // namespace
+
+std::vector<fs::path> run_gnuplot(const Picture& picture, const fs::path& folder,
+                                  const std::vector<std::string>& formats) {
+  for (const std::string& format : formats) {
+    if (format != "png" && format != "svg" && format != "pdf") {
+      throw OutputError("unknown picture format \"" + format + "\"; allowed are png, svg, pdf");
+    }
+  }
+  const std::string script = picture.stem + ".gp";
+  replace_file(folder / script, std::string_view(script_text(picture, formats)));
+  const std::string command =
+      "cd " + shell_text(folder.string()) + " && gnuplot " + shell_text(script) + " 2>&1";
+  FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) throw OutputError("cannot start a shell for gnuplot");
+  std::string messages;
+  char buffer[512];
+  while (fgets(buffer, sizeof buffer, pipe) != nullptr) messages += buffer;
+  const int status = pclose(pipe);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 127) {
+    throw OutputError("gnuplot is not installed (Debian package gnuplot-nox); the script " +
+                      (folder / script).string() + " and its data are written");
+  }
+  if (status != 0) throw OutputError("gnuplot failed on " + (folder / script).string() + ": " + messages);
+  std::vector<fs::path> pictures;
+  for (const std::string& format : formats) pictures.push_back(folder / (picture.stem + "." + format));
+  return pictures;
+}
+
+std::string gnuplot_text(const std::string& text, bool enhanced) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      quoted += '\\';
+    } else if (enhanced && std::string_view("_^@{}&~").find(c) != std::string_view::npos) {
+      quoted += "\\\\";
+    }
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+
+}  // namespace windlass::output

@@ -1,0 +1,254 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "plot_diagram_data.hpp"
+#include "windlass/output/atomic_file.hpp"
+#include "windlass/output/branches_csv.hpp"
+#include "windlass/output/error.hpp"
+#include "windlass/output/gnuplot.hpp"
+#include "windlass/output/plot.hpp"
+
+namespace windlass::output {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Colours that remain distinct in print and for colour-blind readers (Okabe & Ito).
+constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                   "#e69f00", "#56b4e9", "#7f7f7f"};
+constexpr int colour_count = 7;
+
+std::string colour_of(int branch) { return colours[(branch - 1 + colour_count * 1000) % colour_count]; }
+
+std::string line_style(const Piece& piece) {
+  std::string style = "lc rgb '" + colour_of(piece.branch) + "'";
+  if (piece.state == ArmState::stable) return style + " lw 2.2 dt solid";
+  if (piece.state == ArmState::unstable) return style + " lw 1.4 dt (12,7)";
+  return style + " lw 1.4 dt solid";
+}
+
+std::string marker(const std::string& type) {
+  if (type == "fold") return "pt 9 ps 0.9 lc rgb 'black'";
+  if (type == "branch_point") return "pt 7 ps 0.8 lc rgb 'black'";
+  return "pt 4 ps 0.7 lc rgb '#555555'";
+}
+
+void write_data(const DiagramData& data, const fs::path& path) {
+  std::string text = "# columns: " + data.x.name;
+  for (const Axis& axis : data.panels) text += " | " + axis.name;
+  text +=
+      "\n# blocks (separated by two blank lines) are arms of one branch with one stability; ? = not "
+      "defined\n";
+  for (const Piece& piece : data.pieces) {
+    text += "# branch " + std::to_string(piece.branch) + ", " + arm_state_name(piece.state) + "\n";
+    for (const auto& values : piece.rows) {
+      for (const double value : values)
+        text += (std::isfinite(value) ? format_number(value) : std::string("?")) + " ";
+      text += "\n";
+    }
+    text += "\n\n";
+  }
+  replace_file(path, std::string_view(text));
+}
+
+void write_special(const DiagramData& data, const fs::path& path) {
+  std::string text = "# label | type | " + data.x.name;
+  for (const Axis& axis : data.panels) text += " | " + axis.name;
+  text += "\n";
+  for (const char* type : special_types) {
+    text += std::string("# ") + type + "\n";
+    for (const SpecialMark& mark : data.special) {
+      if (mark.type != type) continue;
+      text += "\"" + mark.label + "\" " + mark.type;
+      for (const double value : mark.values)
+        text += " " + (std::isfinite(value) ? format_number(value) : std::string("?"));
+      text += "\n";
+    }
+    text += "\n\n";
+  }
+  replace_file(path, std::string_view(text));
+}
+
+void write_measured(const PlotOptions& options, const fs::path& path) {
+  std::string text = "# measured: T R_tot\n";
+  for (const auto& [T, force] : options.measured)
+    text += format_number(T) + " " + format_number(force) + "\n";
+  replace_file(path, std::string_view(text));
+}
+
+bool has_type(const DiagramData& data, const std::string& type) {
+  return std::any_of(data.special.begin(), data.special.end(),
+                     [&](const SpecialMark& m) { return m.type == type; });
+}
+
+/// Labels at 1, 2, 5 times powers of ten on log axes, which often span less than one decade.
+std::string tics(const char* name, const Axis& axis) {
+  const std::string command = std::string("  set ") + name + " ";
+  if (!axis.log) return command + "autofreq\n";
+  std::string list;
+  const bool long_axis = axis.high / axis.low > 500.0;
+  for (int e = static_cast<int>(std::floor(std::log10(axis.low))); e <= std::log10(axis.high); ++e) {
+    for (const double digit : {1.0, 2.0, 5.0}) {
+      const double value = digit * std::pow(10.0, e);
+      if (value < axis.low || value > axis.high || (long_axis && digit != 1.0)) continue;
+      list += (list.empty() ? "" : ", ") + std::string("'%g' ") + format_number(value);
+    }
+  }
+  return command + "(" + list + ")\n";
+}
+
+std::string range_text(const Axis& axis) {
+  return "[" + format_number(axis.low) + ":" + format_number(axis.high) + "]";
+}
+
+/// Names of special points in the first panel, each on the side where there is room; a name that would cover an
+/// earlier one is left out (its marker stays, and special_points.json lists it).
+std::string label_commands(const DiagramData& data) {
+  const auto part = [](const Axis& axis, double value) {
+    return axis.log ? std::log(value / axis.low) / std::log(axis.high / axis.low)
+                    : (value - axis.low) / (axis.high - axis.low);
+  };
+  constexpr double wide = 0.085, tall = 0.06;
+  std::vector<std::pair<double, double>> taken;
+  std::string text;
+  int number = 100;
+  for (const SpecialMark& mark : data.special) {
+    const double x = part(data.x, mark.values[0]), y = part(data.panels[0], mark.values[1]);
+    if (!std::isfinite(x) || !std::isfinite(y)) continue;
+    for (const auto& [side, lift] :
+         {std::pair(1, -1), std::pair(-1, 1), std::pair(1, 1), std::pair(-1, -1)}) {
+      const double at_x = x + side * (0.015 + wide / 2), at_y = y + lift * 0.035;
+      const bool outside = at_x < wide / 2 || at_x > 1 - wide / 2 || at_y < tall / 2 || at_y > 1 - tall / 2;
+      const bool covers = std::any_of(taken.begin(), taken.end(), [&](const auto& other) {
+        return std::abs(other.first - at_x) < wide && std::abs(other.second - at_y) < tall;
+      });
+      if (outside || covers) continue;
+      taken.emplace_back(at_x, at_y);
+      text += "  set label " + std::to_string(number++) + " " + gnuplot_text(mark.label) + " at graph " +
+              format_number(at_x - side * wide / 2) + ", graph " + format_number(at_y) +
+              (side > 0 ? " left" : " right") + " font ',8'\n";
+      break;
+    }
+  }
+  return text;
+}
+
+/// Commands of one panel; special points are named in the first only.
+std::string panel_commands(const DiagramData& data, std::size_t column, const std::string& stem,
+                           bool has_measured) {
+  const Axis& y = data.panels[column];
+  const std::string using_x_y = " using 1:" + std::to_string(column + 2);
+  std::string text = "  set xlabel " + gnuplot_text(data.x.title, false) + " offset 0,0.3\n";
+  text += "  set ylabel " + gnuplot_text(y.title, false) + " offset 0.8,0\n";
+  text += data.x.log ? "  set log x\n" : "  unset log x\n";
+  text += y.log ? "  set log y\n" : "  unset log y\n";
+  text += "  set xrange " + range_text(data.x) + "\n  set yrange " + range_text(y) + "\n";
+  if (column == 0) text += label_commands(data);
+  text += tics("xtics", data.x) + tics("ytics", y) + "  plot";
+  std::string separator = " ";
+  for (std::size_t i = 0; i < data.pieces.size(); ++i) {
+    text += separator + "'" + stem + ".dat' index " + std::to_string(i) + using_x_y + " with lines notitle " +
+            line_style(data.pieces[i]);
+    separator = ", \\\n    ";
+  }
+  int block = -1;  // gnuplot counts only blocks that hold data
+  for (std::size_t k = 0; k < std::size(special_types); ++k) {
+    if (!has_type(data, special_types[k])) continue;
+    ++block;
+    text += separator + "'" + stem + "-special.dat' index " + std::to_string(block) +
+            " using 3:" + std::to_string(column + 4) + " with points notitle " + marker(special_types[k]);
+  }
+  if (has_measured && column == 0) {
+    text += separator + "'" + stem +
+            "-measured.dat' using 1:2 with points pt 2 ps 0.8 lc rgb 'black' title 'measured'";
+  }
+  return text + "\n";
+}
+
+/// A strip of its own for the legend, so that it never covers a curve.
+std::string legend_commands(const DiagramData& data) {
+  std::map<int, bool> branches;
+  std::map<ArmState, bool> states;
+  for (const Piece& piece : data.pieces) branches[piece.branch] = true, states[piece.state] = true;
+  std::string text =
+      "  set lmargin at screen 0.02\n  set rmargin at screen 0.98\n  set tmargin at screen 0.09\n"
+      "  set bmargin at screen 0.01\n  unset log\n  unset xlabel\n  unset ylabel\n  unset tics\n  unset "
+      "border\n  unset grid\n  set xrange [0:1]\n"
+      "  set yrange [0:1]\n  set key at screen 0.5, screen 0.055 center center horizontal width 1 samplen 3 "
+      "font ',9'\n  plot";
+  std::string separator = " ";
+  const auto entry = [&](const std::string& style, const std::string& title) {
+    text += separator + "NaN " + style + " title " + gnuplot_text(title);
+    separator = ", \\\n    ";
+  };
+  if (states.contains(ArmState::stable)) entry("with lines lc rgb 'black' lw 2.2 dt solid", "stable");
+  if (states.contains(ArmState::unstable)) entry("with lines lc rgb 'black' lw 1.4 dt (12,7)", "unstable");
+  if (states.contains(ArmState::unknown))
+    entry("with lines lc rgb 'black' lw 1.4 dt solid", "stability not computed");
+  if (branches.size() > 1 && branches.size() <= static_cast<std::size_t>(colour_count)) {
+    for (const auto& [branch, unused] : branches) {
+      entry("with lines lw 3 lc rgb '" + colour_of(branch) + "'", "branch " + std::to_string(branch));
+    }
+  }
+  for (const char* type : special_types) {
+    std::string title = type;
+    std::replace(title.begin(), title.end(), '_', ' ');
+    if (title == "contact") title = "contact event";
+    if (has_type(data, type)) entry("with points " + marker(type), title);
+  }
+  return text + "\n";
+}
+
+/// Axes in newtons opposite to the dimensionless ones; gnuplot cannot link log axes, so they are set alongside.
+std::string newton_axes(const scene::Units& units, const Axis& x, const Axis& y) {
+  const auto scaled = [&](Axis axis) {
+    axis.low *= units.force, axis.high *= units.force;
+    return axis;
+  };
+  const Axis x2 = scaled(x), y2 = scaled(y);
+  return std::string(x.log ? "  set log x2\n" : "") + (y.log ? "  set log y2\n" : "") + "  set x2range " +
+         range_text(x2) + "\n  set y2range " + range_text(y2) + "\n" + tics("x2tics", x2) +
+         tics("y2tics", y2) +
+         "  set xtics nomirror\n  set ytics nomirror\n  set x2label 'tension [N]' offset 0,-0.4\n" +
+         "  set y2label 'contact force [N]' offset -1,0\n";
+}
+
+}  // namespace
+
+std::vector<fs::path> plot_diagram(const Run& run, const PlotOptions& options, const fs::path& folder,
+                                   const std::string& stem) {
+  if (run.rows.empty()) throw OutputError("the run " + run.folder.string() + " holds no points to plot");
+  const DiagramData data = diagram_data(run);
+  write_data(data, folder / (stem + ".dat"));
+  write_special(data, folder / (stem + "-special.dat"));
+  if (!options.measured.empty()) write_measured(options, folder / (stem + "-measured.dat"));
+  Picture picture{stem, 8.0, 6.4, {}};
+  std::string& body = picture.body;
+  body +=
+      "  set datafile missing '?'\n  set multiplot\n  set tics font ',9'\n  set grid lc rgb '#dddddd'\n  set "
+      "key top left\n";
+  body +=
+      "  set label 1 " + gnuplot_text(run.info.scene) + " at screen 0.5, screen 0.975 center font ',11'\n";
+  const bool physical = options.units.has_value() && run.info.has_cylinder && data.x.name == "T";
+  for (std::size_t k = 0; k < data.panels.size(); ++k) {
+    const double left = k % 2 == 0 ? 0.095 : 0.60, top = k / 2 == 0 ? (physical ? 0.89 : 0.94) : 0.485;
+    const double right = left + (physical && k == 0 ? 0.35 : 0.38), bottom = k / 2 == 0 ? 0.595 : 0.175;
+    body += "  set lmargin at screen " + format_number(left) + "\n  set rmargin at screen " +
+            format_number(right) + "\n  set tmargin at screen " + format_number(top) +
+            "\n  set bmargin at screen " + format_number(bottom) + "\n";
+    if (physical && k == 0) body += newton_axes(*options.units, data.x, data.panels[0]);
+    body += panel_commands(data, k, stem, !options.measured.empty());
+    if (physical && k == 0)
+      body +=
+          "  unset log x2\n  unset log y2\n  unset x2tics\n  unset y2tics\n  unset x2label\n  unset "
+          "y2label\n  set xtics mirror\n  set ytics mirror\n";
+    if (k == 0) body += "  unset label\n";
+  }
+  body += legend_commands(data) + "  unset multiplot\n";
+  return run_gnuplot(picture, folder, options.formats);
+}
+
+}  // namespace windlass::output

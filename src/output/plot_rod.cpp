@@ -1,0 +1,237 @@
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "rod_projection.hpp"
+#include "windlass/output/atomic_file.hpp"
+#include "windlass/output/branches_csv.hpp"
+#include "windlass/output/gnuplot.hpp"
+#include "windlass/output/plot.hpp"
+
+namespace windlass::output {
+
+namespace fs = std::filesystem;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+namespace {
+
+/// Half width of the window round the cylinder [ρ]; tails go on outside.
+constexpr double window = 2.6;
+
+std::string line(std::initializer_list<double> values) {
+  std::string text;
+  for (const double value : values)
+    text += (std::isfinite(value) ? format_number(value) : std::string("?")) + " ";
+  return text + "\n";
+}
+
+std::string polygon(const std::vector<Vector2d>& points) {
+  std::string text;
+  for (const Vector2d& point : points) text += line({point.x(), point.y()});
+  return text + "\n\n";
+}
+
+/// Blocks of one view: 0 visible rod and 1 hidden rod (right, up), 2 visible line contact (right, up, p), 3 point
+/// forces (right, up, and the arrow), 4 outline of the cylinder, 5 its near rim.
+///
+/// gnuplot numbers blocks by the data they hold, so that an empty one still gets a line of missing values.
+std::string view_data(const RodCurve& curve, const equilibrium::Solution& solution,
+                      const std::vector<PointForce>& forces, const View& view, const Drum& drum,
+                      double arrow) {
+  std::string blocks[3] = {"# visible rod: right up\n", "# hidden rod: right up\n",
+                           "# visible contact: right up p\n"};
+  int drawn_as = -1;
+  for (std::size_t i = 0; i < curve.r.size(); ++i) {
+    const bool hidden = drum.hides(curve.r[i], view);
+    const bool contact = solution.arcs[curve.arc[i]].kind == equilibrium::ArcKind::line;
+    const Vector2d at = view.project(curve.r[i]);
+    const int now = hidden ? 1 : contact ? 2 : 0;
+    // a change of block: the old one still gets this place, to leave no hole, and then a break
+    if (drawn_as >= 0 && now != drawn_as) blocks[drawn_as] += line({at.x(), at.y(), curve.p[i]}) + "\n";
+    blocks[now] += line({at.x(), at.y(), curve.p[i]});
+    drawn_as = now;
+  }
+  std::string text;
+  for (const std::string& block : blocks) text += block + "? ? ?\n\n\n";
+  text += "# point forces: right up d_right d_up\n";
+  if (forces.empty()) text += "? ? ? ?\n";
+  for (const PointForce& force : forces) {
+    const Vector2d at = view.project(force.r), d = view.project(force.direction) * arrow * force.size;
+    text += line({at.x(), at.y(), d.x(), d.y()});
+  }
+  return text + "\n\n# cylinder\n" + polygon(drum.outline(view)) + "# near rim\n" +
+         polygon(drum.rim(view, view.towards.z() >= 0.0 ? drum.high : drum.low));
+}
+
+/// Part of the picture plane that is shown.
+struct Frame {
+  double left = 0.0, right = 0.0, low = 0.0, high = 0.0;
+};
+
+/// Holds cylinder, forces and the rod near them, and has the given width/height.
+Frame frame_of(const RodCurve& curve, const std::vector<PointForce>& forces, const View& view,
+               const Drum& drum, double arrow, double aspect) {
+  Eigen::AlignedBox2d box;
+  for (const Vector2d& point : drum.outline(view)) box.extend(point);
+  for (const PointForce& force : forces)
+    box.extend(view.project(force.r + 1.1 * arrow * force.size * force.direction));
+  for (const Vector3d& r : curve.r) {
+    if (r.head<2>().lpNorm<Eigen::Infinity>() < window) box.extend(view.project(r));
+  }
+  const Vector2d centre = box.center();
+  Vector2d half = 0.53 * box.sizes();
+  half.x() = std::max(half.x(), half.y() * aspect);
+  half.y() = half.x() / aspect;
+  return {centre.x() - half.x(), centre.x() + half.x(), centre.y() - half.y(), centre.y() + half.y()};
+}
+
+/// Pressure along the rod: one block an arc in contact.
+std::string pressure_data(const RodCurve& curve, const equilibrium::Solution& solution) {
+  std::string text;
+  for (std::size_t k = 0; k < solution.arcs.size(); ++k) {
+    if (solution.arcs[k].kind != equilibrium::ArcKind::line) continue;
+    text += "# line contact: s p\n";
+    for (std::size_t i = 0; i < curve.s.size(); ++i) {
+      if (curve.arc[i] == k) text += line({curve.s[i], curve.p[i]});
+    }
+    text += "\n";
+  }
+  return text.empty() ? "? ?\n" : text;
+}
+
+std::string view_commands(const std::string& file, bool with_rim, const Frame& frame) {
+  const std::string data = "'" + file + "'", next = ", \\\n    " + data;
+  std::string text = "  set xrange [" + format_number(frame.left) + ":" + format_number(frame.right) +
+                     "]\n  set yrange [" + format_number(frame.low) + ":" + format_number(frame.high) +
+                     "]\n  set size ratio -1\n";
+  text += "  plot " + data + " index 4 with filledcurves closed notitle lc rgb '#e8e8ec'";
+  text += next + " index 4 with lines notitle lc rgb '#9a9aa4' lw 1";
+  if (with_rim) text += next + " index 5 with lines notitle lc rgb '#9a9aa4' lw 1";
+  text += next + " index 1 using 1:2 with lines notitle lc rgb '#8a8a8a' lw 1.3 dt (4,4)";
+  text += next + " index 0 using 1:2 with lines notitle lc rgb '#303030' lw 3.2";
+  text += next + " index 2 using 1:2:3 with lines notitle lc palette lw 4.2";
+  text +=
+      next +
+      " index 3 using 1:2:3:4 with vectors notitle head filled size screen 0.012,20 lc rgb '#c00000' lw 2";
+  return text + "\n";
+}
+
+std::string subtitle(const equilibrium::Solution& solution) {
+  char text[200];
+  if (solution.has_cylinder) {
+    std::snprintf(text, sizeof text, "T = %.4g,  φ = %.4g°,  R_{tot} = %.5g,  φ^* = %.4g°", solution.T,
+                  solution.phi * 180 / M_PI, solution.R_tot, solution.phi_star * 180 / M_PI);
+  } else {
+    std::snprintf(text, sizeof text, "shortening %.4g,  thrust %.5g,  axial moment %.4g", solution.shortening,
+                  solution.end_force, solution.end_moment);
+  }
+  std::string result = text;
+  if (solution.stability) result += ",  index " + std::to_string(solution.stability->index);
+  return result;
+}
+
+std::string margins(double left, double right, double bottom, double top) {
+  return "  set lmargin at screen " + format_number(left) + "\n  set rmargin at screen " +
+         format_number(right) + "\n  set bmargin at screen " + format_number(bottom) +
+         "\n  set tmargin at screen " + format_number(top) + "\n";
+}
+
+/// p along s with the point forces as impulses on an axis of their own.
+std::string pressure_commands(const equilibrium::Solution& solution, const std::string& stem, double p_max,
+                              double f_max) {
+  double s_contact = 0.0;
+  for (const PointForce& force : point_forces(solution)) s_contact = std::max(s_contact, std::abs(force.s));
+  const double reach = std::max(1.1 * s_contact, 0.2);
+  std::string text = "  unset colorbox\n  set size noratio\n  set border 11\n  set grid lc rgb '#dddddd'\n";
+  text += "  set xtics nomirror font ',9'\n  set ytics nomirror font ',9'\n  set y2tics font ',9'\n";
+  text += margins(0.11, 0.89, 0.125, 0.32);
+  text += "  set xrange [" + format_number(-reach) + ":" + format_number(reach) + "]\n";
+  text += "  set xlabel 'arclength s  [ρ]' offset 0,0.4\n";
+  text += "  set yrange [0:" + format_number(p_max > 0 ? 1.15 * p_max : 1.0) +
+          "]\n  set ylabel 'p  [EI/ρ³]' offset 1,0\n";
+  if (!(p_max > 0)) text += "  unset ytics\n  unset ylabel\n";
+  text += "  set y2range [0:" + format_number(f_max > 0 ? 1.25 * f_max : 1.0) +
+          "]\n  set y2label 'point force f  [EI/ρ²]' offset -1,0 tc rgb '#c00000'\n";
+  const std::string pressure = "'" + stem + "-pressure.dat'", forces = "'" + stem + "-forces.dat'";
+  return text + "  plot " + pressure + " with filledcurves y1=0 lc rgb '#f3c6a5' notitle, \\\n    " +
+         pressure + " with lines lc rgb '#bc3754' lw 1.8 notitle, \\\n    " + forces +
+         " using 1:2 axes x1y2 with impulses lc rgb '#c00000' lw 2.5 notitle, \\\n    " + forces +
+         " using 1:2 axes x1y2 with points pt 9 ps 0.8 lc rgb '#c00000' notitle\n";
+}
+
+std::string heading(const equilibrium::Solution& solution, const std::string& title, double p_max) {
+  std::string text =
+      "  set datafile missing '?'\n  set multiplot\n  unset key\n  unset tics\n  unset border\n";
+  text += "  set label 1 " + gnuplot_text(title) + " at screen 0.5, screen 0.968 center font ',11'\n";
+  text += "  set label 2 " + gnuplot_text(subtitle(solution), false) +
+          " at screen 0.5, screen 0.925 center font ',9'\n";
+  text += "  set palette defined (0 '#fde725', 0.33 '#f98e09', 0.66 '#bc3754', 1 '#57106e')\n";
+  text += "  set cbrange [0:" + format_number(p_max > 0 ? p_max : 1.0) + "]\n";
+  if (!(p_max > 0)) return text + "  unset colorbox\n";
+  return text + "  set cblabel 'pressure p  [EI/ρ³]' offset -0.6,0\n  set cbtics font ',8'\n" +
+         "  set colorbox user origin screen 0.89, screen 0.47 size screen 0.018, screen 0.38\n";
+}
+
+/// A strut has no cylinder: two side views.
+std::string strut_commands(const equilibrium::Solution& solution, const std::string& title,
+                           const std::string& stem) {
+  std::string text = "  set datafile missing '?'\n  set multiplot layout 2,1 title " + gnuplot_text(title) +
+                     "\n  unset key\n";
+  text +=
+      "  set size ratio -1\n  set grid lc rgb '#dddddd'\n  set xlabel 'x  [ρ]'\n  set ylabel 'y  [ρ]'\n  set "
+      "title " +
+      gnuplot_text(subtitle(solution), false) + " font ',9'\n";
+  text += "  plot '" + stem +
+          "-curve.dat' using 2:3 with lines lc rgb '#303030' lw 3\n  unset title\n  set ylabel 'z  [ρ]'\n";
+  text += "  plot '" + stem + "-curve.dat' using 2:4 with lines lc rgb '#303030' lw 3\n  unset multiplot\n";
+  return text;
+}
+
+}  // namespace
+
+std::vector<fs::path> plot_rod(const equilibrium::Solution& solution, const std::string& title,
+                               const PlotOptions& options, const fs::path& folder, const std::string& stem) {
+  const RodCurve curve = dense_curve(solution);
+  const auto write = [&](const char* suffix, const std::string& text) {
+    replace_file(folder / (stem + suffix), std::string_view(text));
+  };
+  std::string rows = "# s x y z p\n";
+  for (std::size_t i = 0; i < curve.s.size(); ++i) {
+    rows += line({curve.s[i], curve.r[i].x(), curve.r[i].y(), curve.r[i].z(), curve.p[i]});
+  }
+  write("-curve.dat", rows);
+  if (!solution.has_cylinder)
+    return run_gnuplot({stem, 7.0, 5.0, strut_commands(solution, title, stem)}, folder, options.formats);
+
+  const bool planar = solution.z_span < 1e-6;
+  const std::vector<PointForce> forces = point_forces(solution);
+  double f_max = 0.0, p_max = 0.0;
+  for (const PointForce& force : forces) f_max = std::max(f_max, force.size);
+  for (const double p : curve.p) p_max = std::max(p_max, p);
+  std::string impulses = "# s f\n";
+  for (const PointForce& force : forces) impulses += line({force.s, force.size});
+  write("-forces.dat", forces.empty() ? "? ?\n" : impulses);
+  write("-pressure.dat", pressure_data(curve, solution));
+
+  const double arrow = f_max > 0.0 ? 0.8 / f_max : 0.0;
+  const Drum drum = drum_for(curve);
+  const View axis = View::along_axis(), side = View::from(-M_PI / 2 + 0.5, 0.35);
+  Picture picture{stem, planar ? 7.0 : 8.5, 6.0, heading(solution, title, p_max)};
+  const auto panel = [&](const char* suffix, const View& view, bool with_rim, double left, double right) {
+    constexpr double low = 0.40, high = 0.90;
+    const double aspect = (right - left) * picture.width / ((high - low) * picture.height);
+    write(suffix, view_data(curve, solution, forces, view, drum, arrow));
+    picture.body +=
+        margins(left, right, low, high) +
+        view_commands(stem + suffix, with_rim, frame_of(curve, forces, view, drum, arrow, aspect));
+    picture.body += "  unset label\n";
+  };
+  panel("-axis.dat", axis, false, planar ? 0.13 : 0.03, planar ? 0.87 : 0.44);
+  if (!planar) panel("-side.dat", side, true, 0.46, 0.87);
+  picture.body += pressure_commands(solution, stem, p_max, f_max) + "  unset multiplot\n";
+  return run_gnuplot(picture, folder, options.formats);
+}
+
+}  // namespace windlass::output
