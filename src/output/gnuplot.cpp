@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "windlass/output/atomic_file.hpp"
+#include "windlass/output/branches_csv.hpp"
 #include "windlass/output/error.hpp"
 
 namespace windlass::output {
@@ -84,6 +85,12 @@ std::string gnuplot_text(const std::string& text, bool enhanced) {
     quoted += c;
   }
   return quoted + "\"";
+}
+
+std::string margins(double left, double right, double bottom, double top) {
+  return "  set lmargin at screen " + format_number(left) + "\n  set rmargin at screen " +
+         format_number(right) + "\n  set bmargin at screen " + format_number(bottom) +
+         "\n  set tmargin at screen " + format_number(top) + "\n";
 }
 
 }  // namespace windlass::output

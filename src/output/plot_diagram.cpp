@@ -169,16 +169,16 @@ std::string panel_commands(const DiagramData& data, std::size_t column, const st
 }
 
 /// A strip of its own for the legend, so that it never covers a curve.
-std::string legend_commands(const DiagramData& data) {
+std::string legend_commands(const DiagramData& data, double top) {
   std::map<int, bool> branches;
   std::map<ArmState, bool> states;
   for (const Piece& piece : data.pieces) branches[piece.branch] = true, states[piece.state] = true;
-  std::string text =
-      "  set lmargin at screen 0.02\n  set rmargin at screen 0.98\n  set tmargin at screen 0.09\n"
-      "  set bmargin at screen 0.01\n  unset log\n  unset xlabel\n  unset ylabel\n  unset tics\n  unset "
-      "border\n  unset grid\n  set xrange [0:1]\n"
-      "  set yrange [0:1]\n  set key at screen 0.5, screen 0.055 center center horizontal width 1 samplen 3 "
-      "font ',9'\n  plot";
+  std::string text = margins(0.02, 0.98, 0.1 * top, 0.9 * top) +
+                     "  unset log\n  unset xlabel\n  unset ylabel\n  unset tics\n  unset border\n  unset "
+                     "grid\n  set xrange [0:1]\n"
+                     "  set yrange [0:1]\n  set key at screen 0.5, screen " +
+                     format_number(0.5 * top) +
+                     " center center horizontal width 1 samplen 3 font ',9'\n  plot";
   std::string separator = " ";
   const auto entry = [&](const std::string& style, const std::string& title) {
     text += separator + "NaN " + style + " title " + gnuplot_text(title);
@@ -216,6 +216,10 @@ std::string newton_axes(const scene::Units& units, const Axis& x, const Axis& y)
          "  set y2label 'contact force [N]' offset -1,0\n";
 }
 
+constexpr const char* no_newton_axes =
+    "  unset log x2\n  unset log y2\n  unset x2tics\n  unset y2tics\n  unset x2label\n  unset y2label\n"
+    "  set xtics mirror\n  set ytics mirror\n";
+
 }  // namespace
 
 std::vector<fs::path> plot_diagram(const Run& run, const PlotOptions& options, const fs::path& folder,
@@ -225,29 +229,31 @@ std::vector<fs::path> plot_diagram(const Run& run, const PlotOptions& options, c
   write_data(data, folder / (stem + ".dat"));
   write_special(data, folder / (stem + "-special.dat"));
   if (!options.measured.empty()) write_measured(options, folder / (stem + "-measured.dat"));
-  Picture picture{stem, 8.0, 6.4, {}};
+  // margins in inches, so that one panel or four look alike
+  const std::size_t columns = data.panels.size() == 1 ? 1 : 2,
+                    rows = (data.panels.size() + columns - 1) / columns;
+  const bool physical = options.units.has_value() && run.info.has_cylinder && data.x.name == "T";
+  const double head = physical ? 0.75 : 0.42, foot = 0.62, pitch = 2.7, width = 8.0;
+  const double height = head + foot + pitch * static_cast<double>(rows);
+  Picture picture{stem, width, height, {}};
   std::string& body = picture.body;
   body +=
       "  set datafile missing '?'\n  set multiplot\n  set tics font ',9'\n  set grid lc rgb '#dddddd'\n  set "
       "key top left\n";
-  body +=
-      "  set label 1 " + gnuplot_text(run.info.scene) + " at screen 0.5, screen 0.975 center font ',11'\n";
-  const bool physical = options.units.has_value() && run.info.has_cylinder && data.x.name == "T";
+  body += "  set label 1 " + gnuplot_text(run.info.scene) + " at screen 0.5, screen " +
+          format_number(1 - 0.18 / height) + " center font ',11'\n";
   for (std::size_t k = 0; k < data.panels.size(); ++k) {
-    const double left = k % 2 == 0 ? 0.095 : 0.60, top = k / 2 == 0 ? (physical ? 0.89 : 0.94) : 0.485;
-    const double right = left + (physical && k == 0 ? 0.35 : 0.38), bottom = k / 2 == 0 ? 0.595 : 0.175;
-    body += "  set lmargin at screen " + format_number(left) + "\n  set rmargin at screen " +
-            format_number(right) + "\n  set tmargin at screen " + format_number(top) +
-            "\n  set bmargin at screen " + format_number(bottom) + "\n";
-    if (physical && k == 0) body += newton_axes(*options.units, data.x, data.panels[0]);
+    const bool newtons = physical && k == 0;
+    const double left = k % columns == 0 ? 0.76 : 4.8,
+                 right = columns == 1 ? 7.75 : left + (newtons ? 2.8 : 3.04);
+    const double top = height - head - pitch * static_cast<double>(k / columns), bottom = top - pitch + 0.62;
+    body += margins(left / width, right / width, bottom / height, top / height);
+    if (newtons) body += newton_axes(*options.units, data.x, data.panels[0]);
     body += panel_commands(data, k, stem, !options.measured.empty());
-    if (physical && k == 0)
-      body +=
-          "  unset log x2\n  unset log y2\n  unset x2tics\n  unset y2tics\n  unset x2label\n  unset "
-          "y2label\n  set xtics mirror\n  set ytics mirror\n";
+    if (newtons) body += no_newton_axes;
     if (k == 0) body += "  unset label\n";
   }
-  body += legend_commands(data) + "  unset multiplot\n";
+  body += legend_commands(data, foot / height) + "  unset multiplot\n";
   return run_gnuplot(picture, folder, options.formats);
 }
 

@@ -102,11 +102,12 @@ std::vector<Quantity> capstan_quantities(const Run& run, bool against_T) {
   return list;
 }
 
-/// Without the quantities that no point has, such as eigenvalues of a run without stability.
+/// Without the quantities that no point has, such as eigenvalues of a run without stability, or that vanish
+/// throughout, such as the axial moment of a strut that is not twisted.
 std::vector<Quantity> existing(std::vector<Quantity> quantities, const Run& run) {
   std::erase_if(quantities, [&](const Quantity& quantity) {
     return std::none_of(run.rows.begin(), run.rows.end(),
-                        [&](const BranchRow& row) { return std::isfinite(quantity.value(row, 1.0)); });
+                        [&](const BranchRow& row) { return std::abs(quantity.value(row, 1.0)) > 1e-12; });
   });
   return quantities;
 }

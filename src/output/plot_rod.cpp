@@ -6,6 +6,7 @@
 #include "rod_projection.hpp"
 #include "windlass/output/atomic_file.hpp"
 #include "windlass/output/branches_csv.hpp"
+#include "windlass/output/error.hpp"
 #include "windlass/output/gnuplot.hpp"
 #include "windlass/output/plot.hpp"
 
@@ -132,12 +133,6 @@ std::string subtitle(const equilibrium::Solution& solution) {
   return result;
 }
 
-std::string margins(double left, double right, double bottom, double top) {
-  return "  set lmargin at screen " + format_number(left) + "\n  set rmargin at screen " +
-         format_number(right) + "\n  set bmargin at screen " + format_number(bottom) +
-         "\n  set tmargin at screen " + format_number(top) + "\n";
-}
-
 /// p along s with the point forces as impulses on an axis of their own.
 std::string pressure_commands(const equilibrium::Solution& solution, const std::string& stem, double p_max,
                               double f_max) {
@@ -174,26 +169,40 @@ std::string heading(const equilibrium::Solution& solution, const std::string& ti
          "  set colorbox user origin screen 0.89, screen 0.47 size screen 0.018, screen 0.38\n";
 }
 
-/// A strut has no cylinder: two side views.
-std::string strut_commands(const equilibrium::Solution& solution, const std::string& title,
-                           const std::string& stem) {
-  std::string text = "  set datafile missing '?'\n  set multiplot layout 2,1 title " + gnuplot_text(title) +
-                     "\n  unset key\n";
-  text +=
-      "  set size ratio -1\n  set grid lc rgb '#dddddd'\n  set xlabel 'x  [ρ]'\n  set ylabel 'y  [ρ]'\n  set "
-      "title " +
-      gnuplot_text(subtitle(solution), false) + " font ',9'\n";
-  text += "  plot '" + stem +
-          "-curve.dat' using 2:3 with lines lc rgb '#303030' lw 3\n  unset title\n  set ylabel 'z  [ρ]'\n";
-  text += "  plot '" + stem + "-curve.dat' using 2:4 with lines lc rgb '#303030' lw 3\n  unset multiplot\n";
-  return text;
+/// A strut has no cylinder: one side view, or two of equal scale when it leaves its plane.
+std::string strut_commands(const equilibrium::Solution& solution, const RodCurve& curve,
+                           const std::string& title, const std::string& stem) {
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& r : curve.r) box.extend(r);
+  const bool planar = solution.z_span < 1e-6;
+  const double margin = 0.08 * box.sizes().maxCoeff(),
+               half = 0.5 * std::max(box.sizes().y(), box.sizes().z()) + margin;
+  const auto range = [](const char* name, double low, double high) {
+    return std::string("  set ") + name + " [" + format_number(low) + ":" + format_number(high) + "]\n";
+  };
+  std::string text = std::string("  set multiplot layout ") + (planar ? "1,1" : "2,1") +
+                     " margins screen 0.11,0.96,0.14,0.86 " +
+                     "spacing screen 0.12\n  unset key\n  set size ratio -1\n  set grid lc rgb '#dddddd'\n";
+  text += "  set label 1 " + gnuplot_text(title) + " at screen 0.5, screen 0.965 center font ',11'\n";
+  text += "  set label 2 " + gnuplot_text(subtitle(solution), false) +
+          " at screen 0.5, screen 0.91 center font ',9'\n";
+  text += range("xrange", box.min().x() - margin, box.max().x() + margin) + "  set xlabel 'x  [ρ]'\n";
+  for (int k = 1; k <= (planar ? 1 : 2); ++k) {
+    text += range("yrange", box.center()[k] - half, box.center()[k] + half) + "  set ylabel '" +
+            (k == 1 ? "y" : "z") + "  [ρ]'\n  plot '" + stem +
+            "-curve.dat' using 2:" + std::to_string(k + 2) +
+            " with lines lc rgb '#303030' lw 3\n  unset label\n";
+  }
+  return text + "  unset multiplot\n";
 }
 
 }  // namespace
 
 std::vector<fs::path> plot_rod(const equilibrium::Solution& solution, const std::string& title,
                                const PlotOptions& options, const fs::path& folder, const std::string& stem) {
-  const RodCurve curve = dense_curve(solution);
+  if (solution.arcs.empty()) throw OutputError("the point " + stem + " holds no rod to draw");
+  const double length = solution.arcs.back().s.tail<1>()[0] - solution.arcs.front().s[0];
+  const RodCurve curve = dense_curve(solution, std::min(0.03, std::max(length, 1e-3) / 300.0));
   const auto write = [&](const char* suffix, const std::string& text) {
     replace_file(folder / (stem + suffix), std::string_view(text));
   };
@@ -203,7 +212,9 @@ std::vector<fs::path> plot_rod(const equilibrium::Solution& solution, const std:
   }
   write("-curve.dat", rows);
   if (!solution.has_cylinder)
-    return run_gnuplot({stem, 7.0, 5.0, strut_commands(solution, title, stem)}, folder, options.formats);
+    return run_gnuplot(
+        {stem, 7.0, solution.z_span < 1e-6 ? 3.6 : 5.6, strut_commands(solution, curve, title, stem)}, folder,
+        options.formats);
 
   const bool planar = solution.z_span < 1e-6;
   const std::vector<PointForce> forces = point_forces(solution);

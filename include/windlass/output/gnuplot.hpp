@@ -22,4 +22,7 @@ std::vector<std::filesystem::path> run_gnuplot(const Picture& picture, const std
 /// Text in single quotes for gnuplot; in enhanced text mode _, ^, @, {, } and & lose their meaning.
 std::string gnuplot_text(const std::string& text, bool enhanced = true);
 
+/// Commands that place the next plot, in parts of the picture.
+std::string margins(double left, double right, double bottom, double top);
+
 }  // namespace windlass::output
