@@ -88,7 +88,7 @@ std::optional<Reduced::Value> Reduced::at(const Vector& p, const Vector& alpha) 
     return std::nullopt;
   }
   try {
-    differentiate(value);
+    differentiate(value, report.factored_here);
   } catch (const std::domain_error& error) {
     failure_ = error.what();
     return std::nullopt;
@@ -100,10 +100,10 @@ std::optional<Reduced::Value> Reduced::at(const Vector& p, const Vector& alpha) 
   return value;
 }
 
-void Reduced::differentiate(Value& value) {
+void Reduced::differentiate(Value& value, bool factored) {
   const Eigen::Index n = problem_.size(), k = null_.right.cols();
   const auto m = static_cast<Eigen::Index>(parameters_.size());
-  problem_.factor(value.it.x, value.it.p, borders_.psi, borders_.c, borders_.d);
+  if (!factored) problem_.factor(value.it.x, value.it.p, borders_.psi, borders_.c, borders_.d);
   // One more correction with this factorisation takes the state to roundoff; y is differenced later.
   const Vector residual = problem_.residual(value.it.x, value.it.p) + borders_.psi * value.it.y;
   const Vector correction = problem_.solve(-residual, borders_.g - borders_.c.transpose() * value.it.u);

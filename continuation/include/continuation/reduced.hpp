@@ -52,7 +52,7 @@ class Reduced {
   const std::string& failure() const { return failure_; }
 
  private:
-  void differentiate(Value& value);
+  void differentiate(Value& value, bool factored);
 
   Problem& problem_;
   const Options& options_;
