@@ -92,7 +92,6 @@ class Resolver {
         return read_number(entry, key, key.dimension, key.range).value;
       };
       scene_.units = Units::of(value(*length), value(*stiffness));
-      resolved_ = true;
       return;
     }
     for (const Entry& entry : document_.entries) {
@@ -130,9 +129,8 @@ class Resolver {
     }
     const Key& like = meaning(key);
     const Number number = read_number(entry, key, like.dimension, like.range);
-    double value = number.value;
-    if (number.has_unit) value /= scale_of(*scene_.units, like.dimension);
-    if (key.set) key.set(scene_, value);
+    const double scale = number.has_unit ? scale_of(*scene_.units, like.dimension) : 1.0;
+    if (key.set) key.set(scene_, number.value / scale);
   }
 
   /// What follows from other keys.
@@ -155,7 +153,6 @@ class Resolver {
   const Document& document_;
   Scene scene_;
   const Entry* physical_ = nullptr;  ///< the first entry with a unit
-  bool resolved_ = false;            ///< written by the program, with its scales
 };
 
 }  // namespace
