@@ -1,0 +1,96 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <Eigen/Sparse>
+#include <memory>
+#include <string>
+#include <vector>
+
+/// The discrete arc as the chain sees it: a generating function of its ends.
+///
+/// An arc's action, made stationary over its interior, is a function of its end configurations, of the internal
+/// force (or momenta) n conserved along it, and of its length:
+///
+///     S(q_a, q_b, n, ℓ) = stat ∫₀^ℓ [W(q, q') − n·d(q)] ds,
+///     ∂S/∂q_a = −m_a,   ∂S/∂q_b = m_b,   ∂S/∂n = −∫ d ds,   ∂S/∂ℓ = −H.
+///
+/// Everything the joints need (moments, relative positions, the Hamiltonian) is a gradient of S, and the Newton
+/// matrix of a chain is a sum of Hessians of S, one an arc, condensed to the arc's ends.
+namespace windlass::bvp {
+
+/// Largest sizes an arc's ends can have: two quaternions (3 + 3), a force (3) and the length (1).
+inline constexpr int max_ends = 10;
+using EndsVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_ends, 1>;
+using EndsMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_ends, max_ends>;
+
+/// Where an arc is evaluated. Pointers refer to ambient coordinates; `interior` is empty for closed-form arcs.
+struct ArcPoint {
+  const double* q_a = nullptr;       ///< configuration at the start; ambient() numbers
+  const double* q_b = nullptr;       ///< configuration at the end
+  const double* interior = nullptr;  ///< configurations between, interior_nodes() × ambient()
+  const double* n = nullptr;         ///< conserved force; forces() numbers
+  double length = 0.0;               ///< ℓ > 0
+};
+
+/// Samples of an arc at all its Lagrange points, ends included.
+struct ArcSamples {
+  Eigen::VectorXd sigma;        ///< scaled arclength in [0, 1]; N
+  Eigen::MatrixXd q;            ///< ambient × N
+  Eigen::MatrixXd momentum;     ///< ∂L/∂q' in the tangent basis; tangent × N (superconvergent at element ends)
+  Eigen::MatrixXd displacement; ///< ∫₀ d ds; forces × N
+  std::vector<int> nodes;       ///< indices of the element ends among the N samples
+};
+
+class Arc {
+ public:
+  virtual ~Arc() = default;
+
+  virtual int ambient() const = 0;   ///< stored numbers per configuration
+  virtual int tangent() const = 0;   ///< degrees of freedom per configuration
+  virtual int forces() const = 0;    ///< components of n
+  virtual int interior_nodes() const { return 0; }
+  int interior_ambient() const { return interior_nodes() * ambient(); }
+  int interior_tangent() const { return interior_nodes() * tangent(); }
+  /// Order of the ends: q_a (tangent), q_b (tangent), n (forces), ℓ (1).
+  int ends() const { return 2 * tangent() + forces() + 1; }
+
+  /// Gradient of the action. `interior` (interior_tangent numbers) is overwritten.
+  virtual void gradient(const ArcPoint& at, double* interior, EndsVector& ends) const = 0;
+
+  /// Assembles and factors the Hessian; returns it condensed to the ends (q_a, q_b, n, ℓ), symmetric part.
+  virtual void factor(const ArcPoint& at, EndsMatrix& condensed) = 0;
+
+  /// Forward elimination: on return `rhs_ends` holds the right-hand side of the condensed system.
+  virtual void reduce(double* rhs_interior, EndsVector& rhs_ends) const { (void)rhs_interior, (void)rhs_ends; }
+  /// Back substitution: `interior` comes from reduce() and leaves as the solution, given the solution at the ends.
+  virtual void expand(double* interior, const EndsVector& solution_ends) const {
+    (void)interior, (void)solution_ends;
+  }
+  /// Negative pivots among the eliminated interior unknowns at the last factor().
+  virtual int negative_pivots() const { return 0; }
+
+  /// Hessian entries of the whole arc (not condensed): interior first, then the ends. For the spectrum and tests.
+  virtual void hessian(const ArcPoint& at, std::vector<Eigen::Triplet<double>>& entries) const = 0;
+  /// Diagonal of the metric ∫ |δq|² ds over interior, then q_a, q_b (n and ℓ weigh nothing). Sizes as hessian().
+  virtual Eigen::VectorXd metric(const ArcPoint& at) const = 0;
+
+  virtual ArcSamples sample(const ArcPoint& at) const = 0;
+  /// Elastic energy ∫ W ds.
+  virtual double energy(const ArcPoint& at) const = 0;
+
+  // Discretisation; closed-form arcs have none.
+  virtual int elements() const { return 0; }
+  virtual int stages() const { return 0; }
+  virtual std::vector<double> mesh() const { return {0.0, 1.0}; }
+  /// Size of the highest Legendre coefficient in each element, the local resolution indicator.
+  virtual std::vector<double> resolution(const ArcPoint& at) const {
+    (void)at;
+    return {};
+  }
+  /// The same continuous problem on another mesh or with another number of stages.
+  virtual std::unique_ptr<Arc> remeshed(const std::vector<double>& mesh, int stages) const = 0;
+  /// Interior configurations of `target` (an arc from remeshed()) interpolated from this arc's; ambient numbers.
+  virtual Eigen::VectorXd transfer(const ArcPoint& at, const Arc& target) const = 0;
+};
+
+}  // namespace windlass::bvp

@@ -1,0 +1,87 @@
+#pragma once
+
+#include "windlass/bvp/arc.hpp"
+#include "windlass/bvp/collocation_table.hpp"
+#include "windlass/bvp/partial_elimination.hpp"
+
+namespace windlass::bvp {
+
+/// An arc discretised by Gauss collocation of the Lagrangian density `Density`.
+///
+/// Density supplies the sizes `ambient`, `tangent`, `forces`, and
+///
+///     L(q, q', n) = W(q, q') − n·d(q)
+///
+/// with first and second derivatives; `basis(q)` (ambient × tangent) spans the increments of a configuration, and
+/// `radial(q, g)` is the second derivative of the retraction contracted with an ambient gradient g (unit quaternions
+/// have one, plain coordinates have none).
+///
+/// With N elements of M stages: (N·M − 1)·tangent interior unknowns, condensed to 2·tangent + forces + 1 at the ends, element by element
+/// and then node by node. Nothing is allocated after construction.
+template <class Density>
+class CollocationArc final : public Arc {
+ public:
+  static constexpr int A = Density::ambient;
+  static constexpr int D = Density::tangent;
+  static constexpr int P = Density::forces;
+  static constexpr int E = 2 * D + P + 1;     ///< ends of an element: left node, right node, n, ℓ
+
+  CollocationArc(Density density, std::vector<double> mesh, int stages);
+
+  int ambient() const override { return A; }
+  int tangent() const override { return D; }
+  int forces() const override { return P; }
+  int interior_nodes() const override { return elements() * stages() - 1; }
+  int elements() const override { return static_cast<int>(mesh_.size()) - 1; }
+  int stages() const override { return table_.stages; }
+  std::vector<double> mesh() const override { return mesh_; }
+
+  void gradient(const ArcPoint& at, double* interior, EndsVector& ends) const override;
+  void factor(const ArcPoint& at, EndsMatrix& condensed) override;
+  void reduce(double* rhs_interior, EndsVector& rhs_ends) const override;
+  void expand(double* interior, const EndsVector& solution_ends) const override;
+  int negative_pivots() const override { return negative_; }
+  void hessian(const ArcPoint& at, std::vector<Eigen::Triplet<double>>& entries) const override;
+  Eigen::VectorXd metric(const ArcPoint& at) const override;
+  ArcSamples sample(const ArcPoint& at) const override;
+  double energy(const ArcPoint& at) const override;
+  std::vector<double> resolution(const ArcPoint& at) const override;
+  std::unique_ptr<Arc> remeshed(const std::vector<double>& mesh, int stages) const override;
+  Eigen::VectorXd transfer(const ArcPoint& at, const Arc& target) const override;
+
+ private:
+  static constexpr int max_points = max_stages + 2;
+  using Nodes = Eigen::Matrix<double, A, Eigen::Dynamic, A == 1 ? Eigen::RowMajor : Eigen::ColMajor, A, max_points>;  ///< one element's configurations
+  using Ambient = Eigen::Matrix<double, A, 1>;
+  using Force = Eigen::Matrix<double, P, 1>;
+
+  /// Pointer to the k-th configuration of the arc (0 the start, interior_nodes() + 1 the end).
+  const double* node(const ArcPoint& at, int k) const;
+  void gather(const ArcPoint& at, int element, Nodes& q) const;
+  /// Gradient of one element's action, one ambient column a Lagrange point; force and length parts are added to.
+  void element_gradient(const Nodes& q, const ArcPoint& at, int element, Nodes& g, Force& g_n,
+                        double& g_length) const;
+  /// Hessian of one element's action, ordered interior, left, right, n, ℓ; lower triangle valid.
+  void element_hessian(const Nodes& q, const ArcPoint& at, int element, Eigen::MatrixXd& k) const;
+  int inner() const { return D * (stages() - 1); }  ///< interior unknowns of an element
+  /// Column of an element matrix where the unknowns of Lagrange point i start.
+  int column(int i) const { return i == 0 ? inner() : i == stages() ? inner() + D : (i - 1) * D; }
+  /// Place of unknown `column` of element e in the arc's list (interior, q_a, q_b, n, ℓ).
+  int place(int element, int column) const;
+
+  Density density_;
+  std::vector<double> mesh_;
+  const CollocationTable& table_;
+  std::vector<PartialElimination> element_factors_, node_factors_;
+  int negative_ = 0;
+  // Work space, so that Newton's inner loop allocates nothing.
+  mutable Eigen::MatrixXd increments_, weighted_, element_, node_;
+};
+
+/// Builds a CollocationArc with `stages` stages. @throws std::invalid_argument outside [min_stages, max_stages + 1].
+template <class Density>
+std::unique_ptr<Arc> make_collocation_arc(const Density& density, const std::vector<double>& mesh, int stages) {
+  return std::make_unique<CollocationArc<Density>>(density, mesh, stages);
+}
+
+}  // namespace windlass::bvp

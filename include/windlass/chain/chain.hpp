@@ -1,0 +1,159 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <Eigen/Sparse>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "windlass/bvp/arc.hpp"
+#include "windlass/contact/joint.hpp"
+
+/// A rod as a chain of arcs and joints: assembly, factorisation and solution of its equilibrium equations.
+namespace windlass::chain {
+
+using bvp::Arc;
+using contact::Joint;
+using contact::Loads;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// One arc of a chain with the data that make it part of it.
+struct Link {
+  std::unique_ptr<Arc> arc;
+  std::string role;                  ///< "line", "gap" or "tail"
+  int pull = 0;                      ///< 0: n unknown; ±1: n is the dead pull of the right end / minus the left one's
+};
+
+/// Layout of a chain's unknowns.
+///
+/// State x (ambient): for each joint its coordinates and, where it locates itself, its arclength s; for each link with
+/// unknown n that n; then the interior configurations of every arc. Increments dx follow the same order with tangent
+/// sizes. The first block (joints and forces, `dense_size()`) couples the arcs; the rest is condensed arc by arc.
+///
+/// Count of equations, the same as of unknowns: a joint gives one balance equation a coordinate and one location
+/// condition if it locates; a link with unknown n gives dim(n) closure equations X_b − X_a = ∫ d ds; an arc gives its
+/// interior collocation equations.
+class Chain {
+ public:
+  /// @param joints  links.size() + 1 of them; fixed_s gives the arclength of joints that do not locate themselves,
+  ///                as a multiple of loads.half_length (−1, 0 or 1); an infinite tail's far joint counts as ±infinity.
+  Chain(std::vector<std::unique_ptr<Joint>> joints, std::vector<double> fixed_s, std::vector<Link> links);
+
+  Eigen::Index ambient_size() const { return ambient_size_; }
+  Eigen::Index size() const { return size_; }
+  Eigen::Index dense_size() const { return dense_size_; }
+  int joint_count() const { return static_cast<int>(joints_.size()); }
+  int link_count() const { return static_cast<int>(links_.size()); }
+  const Joint& joint(int j) const { return *joints_[j]; }
+  const Link& link(int i) const { return links_[i]; }
+
+  // Views of a state.
+  const double* coordinates(const VectorXd& x, int joint) const { return x.data() + joint_at_[joint]; }
+  double* coordinates(VectorXd& x, int joint) const { return x.data() + joint_at_[joint]; }
+  double arclength(const VectorXd& x, const Loads& loads, int joint) const;
+  void set_arclength(VectorXd& x, int joint, double s) const;
+  VectorXd force(const VectorXd& x, const Loads& loads, int link) const;
+  double* force(VectorXd& x, int link) const { return x.data() + force_at_[link]; }
+  double* interior(VectorXd& x, int link) const { return x.data() + interior_at_[link]; }
+  const double* interior(const VectorXd& x, int link) const { return x.data() + interior_at_[link]; }
+
+  /// Everything needed to evaluate one arc; keeps the attachments alive.
+  struct Placed {
+    contact::Attachment left, right;
+    VectorXd n;
+    const double* interior = nullptr;
+    double length = 0.0;
+    bvp::ArcPoint point() const { return {left.q.data(), right.q.data(), interior, n.data(), length}; }
+  };
+  /// @throws std::domain_error if the arc's length is not positive.
+  Placed place(const VectorXd& x, const Loads& loads, int link) const;
+
+  VectorXd retract(const VectorXd& x, const VectorXd& dx) const;
+  VectorXd residual(const VectorXd& x, const Loads& loads) const;
+
+  /// Factors [J B; Cᵀ D] at (x, loads); B, C: size()×k, D: k×k. @throws std::runtime_error if singular.
+  void factor(const VectorXd& x, const Loads& loads, const MatrixXd& b, const MatrixXd& c, const MatrixXd& d);
+  VectorXd solve(const VectorXd& f, const VectorXd& g, bool transposed = false) const;
+  int determinant_sign() const { return determinant_sign_; }
+
+  /// Number of negative directions of the second variation on the active contacts, by inertia of the factorisation
+  /// made by the last factor() at (x, loads); `odd` counts the variations of the other parity at a symmetry point.
+  int index(const VectorXd& x, const Loads& loads, contact::Parity parity) const;
+
+  /// The second variation as a sparse symmetric matrix with its metric, for the spectrum. Size: see `constraints`.
+  struct SecondVariation {
+    Eigen::SparseMatrix<double> matrix;   ///< symmetric, indefinite (multipliers)
+    Eigen::SparseMatrix<double> metric;   ///< ∫ |δ(rotation)|² ds; zero for multipliers and contact locations
+    int constraints = 0;                  ///< negative directions owed to multipliers and to touch locations
+  };
+  SecondVariation second_variation(const VectorXd& x, const Loads& loads, contact::Parity parity) const;
+
+  /// The increment's part of a vector of that space (zero where the two differ: odd coordinates), to draw a mode.
+  VectorXd as_increment(const VectorXd& variation, contact::Parity parity) const;
+
+  /// ∂F/∂x without condensation, for libraries that want a matrix and for tests. Exact at an equilibrium; elsewhere
+  /// it lacks the commutators of interior frames, which are proportional to the residual there.
+  Eigen::SparseMatrix<double> jacobian(const VectorXd& x, const Loads& loads) const;
+
+ private:
+  /// Which unknowns the dense block holds: those of equilibrium, or those of a variation at fixed contact edges.
+  enum class Purpose { equilibrium, even, odd };
+
+  /// One arc's share of the dense block.
+  struct Local {
+    std::vector<Eigen::Index> dofs;  ///< places of the local unknowns in the dense block
+    MatrixXd columns;                ///< ends × dofs: change of the arc's ends per unknown
+    MatrixXd rows;                   ///< ends × dofs: weights of the end equations in each dense equation
+  };
+  /// Places of joint coordinates, arclengths and forces in a dense block.
+  struct Numbering {
+    std::vector<Eigen::Index> coordinate, arclength, force;  ///< arclength, force: −1 where absent
+    Eigen::Index size = 0;
+    int constraints = 0;             ///< multipliers and touch locations: one negative direction each
+  };
+
+  Numbering number(Purpose purpose) const;
+  contact::Attachment attachment(Purpose purpose, const VectorXd& x, const Loads& loads, int joint,
+                                 contact::Side side) const;
+  Local local(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads, int link) const;
+  /// Dense terms that do not come from an arc's condensed Hessian: curvature of attachments, closure, location.
+  void add_joint_terms(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads, int link,
+                       const bvp::EndsVector& gradient, MatrixXd& dense) const;
+  void add_locations(const VectorXd& x, MatrixXd& dense) const;
+  contact::Joint::Location location(const VectorXd& x, int joint) const;
+  /// Condensed Hessian plus the part that is antisymmetric because frames do not commute.
+  static bvp::EndsMatrix with_commutator(const Arc& arc, const bvp::EndsMatrix& symmetric,
+                                         const bvp::EndsVector& gradient);
+  /// Map from a dense block and the interiors to one arc's list (interior, ends).
+  Eigen::SparseMatrix<double> scatter(const MatrixXd& ends, const Local& local, Eigen::Index dense, int link) const;
+  Eigen::SparseMatrix<double> sparse_hessian(Purpose purpose, const Placed& placed, int link) const;
+  MatrixXd variation_matrix(Purpose purpose, const Numbering& numbering, const VectorXd& x,
+                            const Loads& loads) const;
+
+  void reduce(VectorXd& f, bool transposed) const;
+  void expand(VectorXd& f, bool transposed) const;
+  /// K⁻¹ f on the interiors alone, given a vector already reduced; the dense part is zero.
+  VectorXd interior_solve(VectorXd reduced) const;
+
+  std::vector<std::unique_ptr<Joint>> joints_;
+  std::vector<double> fixed_s_;
+  std::vector<Link> links_;
+  std::vector<Eigen::Index> joint_at_, force_at_, interior_at_;     // offsets in the state
+  std::vector<Eigen::Index> joint_row_, force_row_, interior_row_;  // offsets in the increment
+  Eigen::Index ambient_size_ = 0, size_ = 0, dense_size_ = 0;
+
+  Numbering numbering_;
+
+  // Last factorisation.
+  std::vector<Local> locals_;
+  std::vector<bvp::EndsMatrix> condensed_;
+  mutable std::vector<bvp::EndsVector> gradients_;   ///< at the last residual or factorisation
+  MatrixXd border_b_, border_c_;                     ///< reduced borders
+  MatrixXd interior_b_, interior_c_;                 ///< K⁻¹ b, K⁻¹ c on the interiors
+  Eigen::PartialPivLU<MatrixXd> dense_;
+  Eigen::Index borders_ = 0;
+  int determinant_sign_ = 0;
+};
+
+}  // namespace windlass::chain

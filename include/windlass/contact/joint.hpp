@@ -1,0 +1,93 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <memory>
+#include <string>
+
+#include "windlass/bvp/arc.hpp"
+
+/// Joints: the places where arcs meet (contacts, ends, the symmetry point).
+///
+/// A joint owns a few coordinates w (for a touch: place on the cylinder and frame). It tells each neighbouring arc
+/// its end configuration q(w) and position X(w). Balance of force and moment at the joint is then stationarity of
+/// the chain's Lagrangian with respect to w; where the joint sits along the rod (arclength s, unknown for contacts)
+/// is fixed by a location condition: tangency at a touch, continuous curvature at the edge of a line contact.
+namespace windlass::contact {
+
+inline constexpr int max_coordinates = 5;
+using Coordinates = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
+using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
+
+/// Loads and lengths at which a chain is evaluated; the continuation parameters live here.
+struct Loads {
+  double tension = 1.0;      ///< T [EI/ρ²]
+  double angle = 0.0;        ///< phi [rad]
+  double half_length = 0.0;  ///< from the mid-point to an end [ρ]; unused with an infinite tail
+  double thrust = 0.0;       ///< strut: compressive end force
+  double shortening = 0.0;   ///< strut: end shortening / length
+  double twist = 0.0;        ///< strut: relative end rotation about e_x [rad]
+};
+
+enum class Side { left, right };  ///< the arc that ends here, the arc that starts here
+enum class JointKind { end, touch, edge, mid, infinity };
+enum class Parity { even, odd };
+
+/// How one arc's end hangs on the joint: configuration q and position X with first derivatives.
+struct Attachment {
+  Coordinates q;      ///< ambient configuration
+  SmallMatrix dq;     ///< tangent × coordinates
+  SmallVector x;      ///< position conjugate to the arc's n
+  SmallMatrix dx;     ///< forces × coordinates
+};
+
+class Joint {
+ public:
+  virtual ~Joint() = default;
+  virtual JointKind kind() const = 0;
+  virtual int ambient() const = 0;               ///< stored coordinates
+  virtual int tangent() const = 0;               ///< degrees of freedom
+  virtual bool locates() const { return false; } ///< is the arclength of this joint unknown?
+
+  virtual Attachment attach(Side side, const double* w, const Loads& loads) const = 0;
+
+  /// Adds ∂/∂w' of (dqᵀ g_q + dXᵀ f) at frozen g_q, f: the second derivatives of the attachment. tangent × tangent.
+  virtual void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q,
+                         const SmallVector& f, SmallMatrix& out) const {
+    (void)side, (void)w, (void)loads, (void)g_q, (void)f, (void)out;
+  }
+
+  /// Location condition c(w, g_q) = 0, g_q the action gradient of the free arc at this end.
+  struct Location {
+    double value = 0.0;
+    Side side = Side::right;   ///< whose gradient it uses
+    SmallVector by_w;          ///< tangent
+    SmallVector by_gradient;   ///< tangent of the arc's configuration (empty: not used)
+  };
+  /// @param g_left, g_right  action gradients of the neighbouring arcs with respect to their configuration here
+  virtual Location location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const {
+    (void)w, (void)g_left, (void)g_right;
+    return {};
+  }
+
+  /// Derivative of the dead potential −F·X with w, for joints that carry a load themselves (strut ends).
+  virtual SmallVector dead_load(const double* w, const Loads& loads) const {
+    (void)w, (void)loads;
+    return SmallVector::Zero(tangent());
+  }
+
+  /// Variations of the other parity at a symmetry point: replaces dq and dX of attach(); tangent count by columns.
+  virtual Attachment attach_odd(const double* w, const Loads& loads) const { return attach(Side::right, w, loads); }
+  /// curvature() of the odd attachment; most symmetry points vary linearly.
+  virtual void curvature_odd(const double* w, const SmallVector& f, SmallMatrix& out) const {
+    (void)w, (void)f, (void)out;
+  }
+
+  virtual void retract(const double* w, const double* dw, double* out) const = 0;
+
+  /// Place on the cylinder: angle from the south pole [rad] and height [ρ]; meaningful for contacts.
+  virtual double angle(const double* w) const { return (void)w, 0.0; }
+  virtual double height(const double* w) const { return (void)w, 0.0; }
+};
+
+}  // namespace windlass::contact

@@ -1,0 +1,152 @@
+#pragma once
+
+#include "windlass/contact/joint.hpp"
+#include "windlass/rod/quaternion.hpp"
+
+/// Joints of the Kirchhoff rod round the unit cylinder. Free arcs: unit quaternion q and position r ∈ R³; line
+/// contacts: (ψ, χ) and (a, z), see rod::SurfaceDensity. X(a, z) = (sin a, −cos a, z), N(a) = (sin a, −cos a, 0).
+namespace windlass::contact::spatial {
+
+/// Frame of a rod lying on the cylinder: Rz(a) · Q₀ · R₁(ψ) · R₃(χ), with d1 = N and d3 = e_x at a = ψ = χ = 0.
+rod::Quaternion surface_frame(double a, double psi, double chi);
+
+/// Increments v (half rotation vectors in the body frame) per unit a, ψ, χ: columns of a 3×3 matrix.
+Eigen::Matrix3d surface_spins(double psi, double chi);
+
+/// Angle, inclination and twist (a mod 2π) of a frame whose tangent is normal to N(a).
+Eigen::Vector3d surface_coordinates(const rod::Quaternion& q, double a);
+
+class VectorJoint : public Joint {
+ public:
+  int ambient() const override { return tangent(); }
+  void retract(const double* w, const double* dw, double* out) const override {
+    for (int i = 0; i < tangent(); ++i) out[i] = w[i] + dw[i];
+  }
+};
+
+/// Isolated touch: w = (a, z, q), 5 degrees of freedom, arclength unknown.
+/// Equations 6: tangential forces (2), moments (3), tangency d₃·N = 0. `pin_height` holds z (see Chain).
+class Touch final : public Joint {
+ public:
+  explicit Touch(bool pin_height = false) : pinned_(pin_height) {}
+  JointKind kind() const override { return JointKind::touch; }
+  int ambient() const override { return 6; }
+  int tangent() const override { return pinned_ ? 4 : 5; }
+  bool locates() const override { return true; }
+  Attachment attach(Side side, const double* w, const Loads& loads) const override;
+  void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
+                 SmallMatrix& out) const override;
+  Location location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const override;
+  void retract(const double* w, const double* dw, double* out) const override;
+  double angle(const double* w) const override { return w[0]; }
+  double height(const double* w) const override { return w[1]; }
+
+ private:
+  bool pinned_;
+};
+
+/// Edge of a line contact: w = (a, z, ψ, χ), 4 degrees of freedom, arclength unknown.
+/// Equations 5: forces along the surface (2), moments about N and d₃ (2), m·D₂ = −B cos²ψ (normal curvature of the
+/// free arc equal to the surface's).
+class Edge final : public VectorJoint {
+ public:
+  Edge(Side line_side, double bending_stiffness, bool pin_height = false)
+      : line_(line_side), stiffness_(bending_stiffness), pinned_(pin_height) {}
+  JointKind kind() const override { return JointKind::edge; }
+  int ambient() const override { return 4; }
+  int tangent() const override { return pinned_ ? 3 : 4; }
+  bool locates() const override { return true; }
+  Attachment attach(Side side, const double* w, const Loads& loads) const override;
+  void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
+                 SmallMatrix& out) const override;
+  Location location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const override;
+  void retract(const double* w, const double* dw, double* out) const override;
+  double angle(const double* w) const override { return w[0]; }
+  double height(const double* w) const override { return w[1]; }
+
+ private:
+  Side line_;
+  double stiffness_;
+  bool pinned_;
+};
+
+/// Half-turn point on a line contact: a = z = χ = 0, w = (ψ). Odd variations: χ when twist is held (clamped ends).
+/// Pinned rigid motions: z (translation), a (sliding of the rod along itself, see contact::planar), and χ for ends
+/// free of moment (spin).
+class MidLine final : public VectorJoint {
+ public:
+  explicit MidLine(bool twist_held) : twist_held_(twist_held) {}
+  JointKind kind() const override { return JointKind::mid; }
+  int tangent() const override { return 1; }
+  Attachment attach(Side side, const double* w, const Loads& loads) const override;
+  Attachment attach_odd(const double* w, const Loads& loads) const override;
+
+ private:
+  bool twist_held_;
+};
+
+/// Half-turn point on a free arc: r = (0, y, 0), frame turned by ψ about the half-turn axis e_y; w = (y, ψ).
+/// Odd variations: spins about d₂ and d₃; x and z where no rigid motion is to be pinned.
+class MidGap final : public VectorJoint {
+ public:
+  struct OddFreedom {
+    bool along = false;   ///< x varies (false: sliding of the rod along itself, pinned)
+    bool height = false;  ///< z varies (false: rigid translation or rotational phase, pinned)
+    bool spin = true;     ///< spin about d₃ varies (false: rigid spin of an isotropic rod free of end moment)
+  };
+  explicit MidGap(OddFreedom odd) : odd_(odd) {}
+  JointKind kind() const override { return JointKind::mid; }
+  int tangent() const override { return 2; }
+  Attachment attach(Side side, const double* w, const Loads& loads) const override;
+  Attachment attach_odd(const double* w, const Loads& loads) const override;
+
+ private:
+  OddFreedom odd_;
+};
+
+/// Half-turn point on a touch at the south pole: w = (ψ). Odd variations: a, spins about d₂ and d₃.
+class MidTouch final : public VectorJoint {
+ public:
+  explicit MidTouch(bool twist_held) : twist_held_(twist_held) {}
+  JointKind kind() const override { return JointKind::touch; }
+  int tangent() const override { return 1; }
+  Attachment attach(Side side, const double* w, const Loads& loads) const override;
+  Attachment attach_odd(const double* w, const Loads& loads) const override;
+  void curvature_odd(const double* w, const SmallVector& f, SmallMatrix& out) const override;
+
+ private:
+  bool twist_held_;
+};
+
+/// Rod end under the dead pull. moment_free: w = (q), 3 degrees of freedom, or 2 with the rigid spin pinned (full
+/// chain of an isotropic rod). clamped: frame along the pull, as in the untwisted planar rod.
+class End final : public Joint {
+ public:
+  End(Side arc_side, bool clamped, bool pin_spin = false) : arc_(arc_side), clamped_(clamped), pinned_(pin_spin) {}
+  JointKind kind() const override { return JointKind::end; }
+  int ambient() const override { return clamped_ ? 0 : 4; }
+  int tangent() const override { return clamped_ ? 0 : pinned_ ? 2 : 3; }
+  Attachment attach(Side side, const double* w, const Loads& loads) const override;
+  void retract(const double* w, const double* dw, double* out) const override;
+
+ private:
+  Side arc_;
+  bool clamped_, pinned_;
+};
+
+/// Clamped end of a strut along e_x: frame turned by ±twist/2 about e_x, y = z = 0. x is imposed by the shortening,
+/// x = ±(1 − shortening)·half_length, or w = (x) under the dead thrust.
+class StrutEnd final : public VectorJoint {
+ public:
+  StrutEnd(Side arc_side, bool under_thrust) : arc_(arc_side), under_thrust_(under_thrust) {}
+  JointKind kind() const override { return JointKind::end; }
+  int tangent() const override { return under_thrust_ ? 1 : 0; }
+  Attachment attach(Side side, const double* w, const Loads& loads) const override;
+  SmallVector dead_load(const double* w, const Loads& loads) const override;
+
+ private:
+  Side arc_;
+  bool under_thrust_;
+};
+
+}  // namespace windlass::contact::spatial

@@ -1,0 +1,361 @@
+// Definitions of CollocationArc; included by the files that instantiate it, one a density.
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include "windlass/bvp/collocation_arc.hpp"
+
+namespace windlass::bvp {
+
+template <class Density>
+CollocationArc<Density>::CollocationArc(Density density, std::vector<double> mesh, int stages)
+    : density_(std::move(density)), mesh_(std::move(mesh)), table_(CollocationTable::get(stages)) {
+  if (mesh_.size() < 2) throw std::invalid_argument("an arc's mesh needs at least one element");
+  element_factors_.resize(mesh_.size() - 1);
+  node_factors_.resize(mesh_.size() - 2);
+  for (auto& factor : element_factors_) factor.resize(inner(), E);
+  for (auto& factor : node_factors_) factor.resize(D, E);
+  const int columns = inner() + 2 * D;
+  increments_.setZero(2 * A * stages, columns);
+  weighted_.setZero(2 * A * stages, columns);
+  element_.setZero(inner() + E, inner() + E);
+  node_.setZero(D + E, D + E);
+}
+
+template <class Density>
+const double* CollocationArc<Density>::node(const ArcPoint& at, int k) const {
+  if (k == 0) return at.q_a;
+  if (k == elements() * stages()) return at.q_b;
+  return at.interior + (k - 1) * A;
+}
+
+template <class Density>
+void CollocationArc<Density>::gather(const ArcPoint& at, int element, Nodes& q) const {
+  q.resize(A, stages() + 1);
+  for (int i = 0; i <= stages(); ++i) q.col(i) = Eigen::Map<const Ambient>(node(at, element * stages() + i));
+}
+
+namespace {
+
+/// Value and derivative of an element's polynomial at Gauss point g.
+template <class Nodes, class Ambient>
+void evaluate(const CollocationTable& table, const Nodes& q, int g, double inverse, Ambient& value, Ambient& slope) {
+  value.setZero();
+  slope.setZero();
+  for (int i = 0; i <= table.stages; ++i) {
+    value += table.value(g, i) * q.col(i);
+    slope += table.slope(g, i) * q.col(i);
+  }
+  slope *= inverse;
+}
+
+}  // namespace
+
+template <class Density>
+void CollocationArc<Density>::element_gradient(const Nodes& q, const ArcPoint& at, int element, Nodes& out, Force& g_n,
+                                               double& g_length) const {
+  const double h = mesh_[element + 1] - mesh_[element], inverse = 1.0 / (h * at.length);
+  const Eigen::Map<const Force> n(at.n);
+  out.setZero(A, stages() + 1);
+  Ambient value, slope;
+  Eigen::Matrix<double, 2 * A, 1> gz;
+  Force d;
+  for (int g = 0; g < stages(); ++g) {
+    evaluate(table_, q, g, inverse, value, slope);
+    const double lagrangian = density_.first(value, slope, n, gz, d);
+    const double w = h * table_.weight(g), wl = w * at.length;
+    for (int i = 0; i <= stages(); ++i)
+      out.col(i) += (wl * table_.value(g, i)) * gz.template head<A>() + (w / h * table_.slope(g, i)) * gz.template tail<A>();
+    g_n -= wl * d;
+    g_length += w * (lagrangian - gz.template tail<A>().dot(slope));
+  }
+}
+
+template <class Density>
+void CollocationArc<Density>::gradient(const ArcPoint& at, double* interior, EndsVector& ends) const {
+  ends.setZero(E);
+  std::fill_n(interior, interior_tangent(), 0.0);
+  Force g_n = Force::Zero();
+  double g_length = 0.0;
+  const int last = elements() * stages();
+  Nodes q, g;
+  for (int e = 0; e < elements(); ++e) {
+    gather(at, e, q);
+    element_gradient(q, at, e, g, g_n, g_length);
+    for (int i = 0; i <= stages(); ++i) {
+      const int k = e * stages() + i;
+      const Eigen::Matrix<double, D, 1> projected = density_.basis(q.col(i)).transpose() * g.col(i);
+      if (k == 0)
+        ends.template head<D>() += projected;
+      else if (k == last)
+        ends.template segment<D>(D) += projected;
+      else
+        Eigen::Map<Eigen::Matrix<double, D, 1>>(interior + (k - 1) * D) += projected;
+    }
+  }
+  ends.template segment<P>(2 * D) = g_n;
+  ends(E - 1) = g_length;
+}
+
+template <class Density>
+void CollocationArc<Density>::element_hessian(const Nodes& q, const ArcPoint& at, int element,
+                                              Eigen::MatrixXd& k) const {
+  const int m = stages(), columns = inner() + 2 * D, length = inner() + E - 1;
+  const double h = mesh_[element + 1] - mesh_[element], inverse = 1.0 / (h * at.length);
+  const Eigen::Map<const Force> n(at.n);
+  std::array<Eigen::Matrix<double, A, D>, max_points> basis;
+  std::array<Ambient, max_points> ambient;
+  for (int i = 0; i <= m; ++i) {
+    basis[i] = density_.basis(q.col(i));
+    ambient[i].setZero();
+  }
+  k.setZero();
+  Ambient value, slope;
+  Eigen::Matrix<double, 2 * A, 1> gz, by_length;
+  Eigen::Matrix<double, 2 * A, 2 * A> hz;
+  Force d;
+  Eigen::Matrix<double, P, A> dd;
+  for (int g = 0; g < m; ++g) {
+    evaluate(table_, q, g, inverse, value, slope);
+    density_.second(value, slope, n, gz, hz, d, dd);
+    const double w = h * table_.weight(g), wl = w * at.length;
+    // Derivatives with the length: q' = q_σ/(h ℓ).
+    by_length.template head<A>() = gz.template head<A>() - hz.template topRightCorner<A, A>() * slope;
+    by_length.template tail<A>() = -hz.template bottomRightCorner<A, A>() * slope;
+    for (int i = 0; i <= m; ++i) {
+      Eigen::Matrix<double, 2 * A, D> b;  // increments of (q, q') at the Gauss point
+      b.template topRows<A>() = table_.value(g, i) * basis[i];
+      b.template bottomRows<A>() = (inverse * table_.slope(g, i)) * basis[i];
+      const int c = column(i);
+      increments_.template block<2 * A, D>(2 * A * g, c) = b;
+      weighted_.template block<2 * A, D>(2 * A * g, c) = wl * (hz * b);
+      k.template block<P, D>(columns, c) -= (wl * table_.value(g, i)) * (dd * basis[i]);
+      k.template block<1, D>(length, c) += w * by_length.transpose() * b;
+      ambient[i] += (wl * table_.value(g, i)) * gz.template head<A>() +
+                    (wl * inverse * table_.slope(g, i)) * gz.template tail<A>();
+    }
+    k.template block<1, P>(length, columns) -= w * d.transpose();
+    k(length, length) -= w / at.length * slope.dot(by_length.template tail<A>());
+  }
+  k.topLeftCorner(columns, columns).noalias() += increments_.transpose() * weighted_;
+  for (int i = 0; i <= m; ++i) {
+    const double radial = density_.radial(q.col(i), ambient[i]);
+    for (int j = 0; j < D; ++j) k(column(i) + j, column(i) + j) += radial;
+  }
+}
+
+template <class Density>
+void CollocationArc<Density>::factor(const ArcPoint& at, EndsMatrix& condensed) {
+  constexpr int F = P + 1;  // n and ℓ
+  negative_ = 0;
+  Nodes q;
+  Eigen::Matrix<double, E, E> carry, s;  // on (first node, current node, n, ℓ), lower triangles
+  for (int e = 0; e < elements(); ++e) {
+    gather(at, e, q);
+    element_hessian(q, at, e, element_);
+    element_factors_[e].factor(element_);
+    negative_ += element_factors_[e].negative_pivots();
+    s = element_.template bottomRightCorner<E, E>();  // on (left, right, n, ℓ)
+    if (e == 0) {
+      carry = s;
+      continue;
+    }
+    // Eliminate the node shared with the previous elements: order (shared, first, right, n, ℓ).
+    auto& node = node_;
+    node.setZero();
+    node.template block<D, D>(0, 0) = carry.template block<D, D>(D, D) + s.template block<D, D>(0, 0);
+    node.template block<D, D>(D, 0) = carry.template block<D, D>(D, 0).transpose();
+    node.template block<D, D>(2 * D, 0) = s.template block<D, D>(D, 0);
+    node.template block<F, D>(3 * D, 0) = carry.template block<F, D>(2 * D, D) + s.template block<F, D>(2 * D, 0);
+    node.template block<D, D>(D, D) = carry.template block<D, D>(0, 0);
+    node.template block<F, D>(3 * D, D) = carry.template block<F, D>(2 * D, 0);
+    node.template block<D, D>(2 * D, 2 * D) = s.template block<D, D>(D, D);
+    node.template block<F, D>(3 * D, 2 * D) = s.template block<F, D>(2 * D, D);
+    node.template block<F, F>(3 * D, 3 * D) =
+        carry.template block<F, F>(2 * D, 2 * D) + s.template block<F, F>(2 * D, 2 * D);
+    node_factors_[e - 1].factor(node);
+    negative_ += node_factors_[e - 1].negative_pivots();
+    carry = node.template bottomRightCorner<E, E>();
+  }
+  condensed = carry.template selfadjointView<Eigen::Lower>();
+}
+
+template <class Density>
+void CollocationArc<Density>::reduce(double* rhs, EndsVector& ends) const {
+  using NodeMap = Eigen::Map<Eigen::Matrix<double, D, 1>>;
+  const int m = stages();
+  Eigen::Matrix<double, E, 1> g;
+  const auto distribute = [&](int left, int right) {  // shares of an elimination to its left and right node
+    if (left == 0)
+      ends.template head<D>() += g.template head<D>();
+    else
+      NodeMap(rhs + (left * m - 1) * D) += g.template head<D>();
+    if (right == elements())
+      ends.template segment<D>(D) += g.template segment<D>(D);
+    else
+      NodeMap(rhs + (right * m - 1) * D) += g.template segment<D>(D);
+    ends.template tail<P + 1>() += g.template tail<P + 1>();
+  };
+  for (int e = 0; e < elements(); ++e) {
+    g.setZero();
+    element_factors_[e].reduce(rhs + e * m * D, g.data());
+    distribute(e, e + 1);
+  }
+  for (int e = 1; e < elements(); ++e) {
+    g.setZero();
+    node_factors_[e - 1].reduce(rhs + (e * m - 1) * D, g.data());
+    distribute(0, e + 1);
+  }
+}
+
+template <class Density>
+void CollocationArc<Density>::expand(double* x, const EndsVector& ends) const {
+  using NodeMap = Eigen::Map<Eigen::Matrix<double, D, 1>>;
+  const int m = stages();
+  Eigen::Matrix<double, E, 1> y = ends;
+  for (int e = elements() - 1; e >= 1; --e) {
+    if (e + 1 < elements()) y.template segment<D>(D) = NodeMap(x + ((e + 1) * m - 1) * D);
+    node_factors_[e - 1].expand(x + (e * m - 1) * D, y.data());
+  }
+  for (int e = 0; e < elements(); ++e) {
+    y = ends;
+    if (e > 0) y.template head<D>() = NodeMap(x + (e * m - 1) * D);
+    if (e + 1 < elements()) y.template segment<D>(D) = NodeMap(x + ((e + 1) * m - 1) * D);
+    element_factors_[e].expand(x + e * m * D, y.data());
+  }
+}
+
+template <class Density>
+int CollocationArc<Density>::place(int element, int column) const {
+  const int interior = interior_tangent(), in = inner(), m = stages();
+  if (column >= in + 2 * D) return interior + 2 * D + column - (in + 2 * D);
+  const bool left = column >= in && column < in + D, right = column >= in + D;
+  const int point = element * m + (left ? 0 : right ? m : column / D + 1);
+  const int part = left || right ? (column - in) % D : column % D;
+  if (point == 0) return interior + part;
+  if (point == elements() * m) return interior + D + part;
+  return (point - 1) * D + part;
+}
+
+template <class Density>
+void CollocationArc<Density>::hessian(const ArcPoint& at, std::vector<Eigen::Triplet<double>>& entries) const {
+  Nodes q;
+  for (int e = 0; e < elements(); ++e) {
+    gather(at, e, q);
+    element_hessian(q, at, e, element_);
+    for (int i = 0; i < element_.rows(); ++i)
+      for (int j = 0; j <= i; ++j) {
+        if (element_(i, j) == 0.0) continue;
+        const int row = place(e, i), col = place(e, j);
+        entries.emplace_back(row, col, element_(i, j));
+        if (i != j) entries.emplace_back(col, row, element_(i, j));
+      }
+  }
+}
+
+template <class Density>
+Eigen::VectorXd CollocationArc<Density>::metric(const ArcPoint& at) const {
+  const Eigen::VectorXd lumped = table_.value.transpose() * table_.weight;
+  Eigen::VectorXd mass = Eigen::VectorXd::Zero(interior_tangent() + E);
+  for (int e = 0; e < elements(); ++e)
+    for (int i = 0; i <= stages(); ++i)
+      for (int j = 0; j < D; ++j)
+        mass(place(e, column(i) + j)) += Density::metric_scale * lumped(i) * at.length * (mesh_[e + 1] - mesh_[e]);
+  return mass;
+}
+
+template <class Density>
+ArcSamples CollocationArc<Density>::sample(const ArcPoint& at) const {
+  const int m = stages(), count = elements() * m + 1;
+  ArcSamples out{Eigen::VectorXd(count), Eigen::MatrixXd(A, count), Eigen::MatrixXd(D, count),
+                 Eigen::MatrixXd::Zero(P, count), {}};
+  const Eigen::Map<const Force> n(at.n);
+  Force base = Force::Zero();
+  Nodes q, g;
+  Ambient value, slope;
+  for (int e = 0; e < elements(); ++e) {
+    const double h = mesh_[e + 1] - mesh_[e];
+    gather(at, e, q);
+    Force g_n = Force::Zero();
+    double g_length = 0.0;
+    element_gradient(q, at, e, g, g_n, g_length);
+    Eigen::MatrixXd directions(P, m);
+    for (int j = 0; j < m; ++j) {
+      evaluate(table_, q, j, 1.0, value, slope);
+      directions.col(j) = density_.direction(value);
+    }
+    const Eigen::MatrixXd moved = h * at.length * directions * table_.integral.transpose();
+    for (int i = 0; i <= m; ++i) {
+      const int k = e * m + i;
+      out.sigma(k) = mesh_[e] + h * table_.lobatto(i);
+      out.q.col(k) = q.col(i);
+      out.displacement.col(k) = base + moved.col(i);
+      slope = q * table_.end_slope.row(i).transpose() / (h * at.length);
+      Eigen::Matrix<double, 2 * A, 1> gz;
+      Force d;
+      density_.first(q.col(i), slope, n, gz, d);
+      out.momentum.col(k) = density_.basis(q.col(i)).transpose() * gz.template tail<A>();
+    }
+    out.momentum.col(e * m) = -density_.basis(q.col(0)).transpose() * g.col(0);
+    out.momentum.col(e * m + m) = density_.basis(q.col(m)).transpose() * g.col(m);
+    base -= g_n;  // ∂S/∂n of the element = −∫ d ds
+    out.displacement.col(e * m + m) = base;
+    out.nodes.push_back(e * m);
+  }
+  out.nodes.push_back(count - 1);
+  return out;
+}
+
+template <class Density>
+double CollocationArc<Density>::energy(const ArcPoint& at) const {
+  double sum = 0.0;
+  Nodes q;
+  Ambient value, slope;
+  for (int e = 0; e < elements(); ++e) {
+    const double h = mesh_[e + 1] - mesh_[e];
+    gather(at, e, q);
+    for (int g = 0; g < stages(); ++g) {
+      evaluate(table_, q, g, 1.0 / (h * at.length), value, slope);
+      sum += h * at.length * table_.weight(g) * density_.elastic(value, slope);
+    }
+  }
+  return sum;
+}
+
+template <class Density>
+std::vector<double> CollocationArc<Density>::resolution(const ArcPoint& at) const {
+  std::vector<double> sizes;
+  Nodes q;
+  for (int e = 0; e < elements(); ++e) {
+    gather(at, e, q);
+    sizes.push_back((q * table_.highest.transpose()).cwiseAbs().maxCoeff());
+  }
+  return sizes;
+}
+
+template <class Density>
+std::unique_ptr<Arc> CollocationArc<Density>::remeshed(const std::vector<double>& mesh, int stages) const {
+  return make_collocation_arc<Density>(density_, mesh, stages);
+}
+
+template <class Density>
+Eigen::VectorXd CollocationArc<Density>::transfer(const ArcPoint& at, const Arc& target) const {
+  const std::vector<double> mesh = target.mesh();
+  const int fine = target.stages();
+  const Eigen::VectorXd points = CollocationTable::get(fine).lobatto;
+  Eigen::VectorXd out(target.interior_ambient());
+  Nodes q;
+  int e = 0, gathered = -1;
+  for (int k = 1; k <= target.interior_nodes(); ++k) {
+    const int t = k / fine;
+    const double sigma = mesh[t] + (mesh[t + 1] - mesh[t]) * points(k % fine);
+    while (e + 1 < elements() && sigma > mesh_[e + 1]) ++e;
+    if (e != gathered) gather(at, gathered = e, q);
+    const double x = (sigma - mesh_[e]) / (mesh_[e + 1] - mesh_[e]);
+    const Ambient value = q * lagrange_basis(table_.lobatto, x);
+    out.template segment<A>((k - 1) * A) = density_.normalised(value);
+  }
+  return out;
+}
+
+}  // namespace windlass::bvp

@@ -1,0 +1,162 @@
+#include "windlass/chain/chain.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "windlass/rod/quaternion.hpp"
+
+namespace windlass::chain {
+
+using contact::Attachment;
+using contact::JointKind;
+using contact::Side;
+using contact::SmallMatrix;
+using contact::SmallVector;
+
+namespace {
+
+/// An infinite tail is sampled this many decay lengths √(B/T) out: exp(−40) is below rounding.
+constexpr double tail_decay_lengths = 40.0;
+
+}  // namespace
+
+Chain::Chain(std::vector<std::unique_ptr<Joint>> joints, std::vector<double> fixed_s, std::vector<Link> links)
+    : joints_(std::move(joints)), fixed_s_(std::move(fixed_s)), links_(std::move(links)) {
+  if (joints_.size() != links_.size() + 1 || fixed_s_.size() != joints_.size())
+    throw std::invalid_argument("a chain has one joint more than arcs");
+  for (const auto& joint : joints_) {
+    joint_at_.push_back(ambient_size_);
+    ambient_size_ += joint->ambient() + joint->locates();
+  }
+  for (const Link& link : links_) {
+    force_at_.push_back(ambient_size_);
+    if (link.pull == 0) ambient_size_ += link.arc->forces();
+  }
+  for (const Link& link : links_) {
+    interior_at_.push_back(ambient_size_);
+    ambient_size_ += link.arc->interior_ambient();
+  }
+  numbering_ = number(Purpose::equilibrium);
+  dense_size_ = size_ = numbering_.size;
+  for (const Link& link : links_) {
+    interior_row_.push_back(size_);
+    size_ += link.arc->interior_tangent();
+  }
+  locals_.resize(links_.size());
+  condensed_.resize(links_.size());
+  gradients_.resize(links_.size());
+}
+
+Chain::Numbering Chain::number(Purpose purpose) const {
+  Numbering n;
+  const Loads unused;
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    const Joint& joint = *joints_[j];
+    const bool odd_end = purpose == Purpose::odd && j == 0;
+    n.coordinate.push_back(n.size);
+    if (odd_end) {
+      const VectorXd any = VectorXd::Zero(joint.ambient() + 1);
+      n.size += joint.attach_odd(any.data(), unused).dq.cols();
+    } else {
+      n.size += joint.tangent();
+    }
+    // In a variation a touch keeps its location as a direction of maximum; the edge of a line stays where it is,
+    // because moving it costs nothing to second order.
+    const bool kept = joint.locates() && (purpose == Purpose::equilibrium || joint.kind() == JointKind::touch);
+    n.arclength.push_back(kept ? n.size++ : -1);
+    n.constraints += kept;
+  }
+  for (const Link& link : links_) {
+    n.force.push_back(link.pull == 0 ? n.size : -1);
+    if (link.pull == 0) {
+      n.size += link.arc->forces();
+      n.constraints += link.arc->forces();
+    }
+  }
+  return n;
+}
+
+double Chain::arclength(const VectorXd& x, const Loads& loads, int joint) const {
+  if (joints_[joint]->locates()) return x(joint_at_[joint] + joints_[joint]->ambient());
+  return std::isinf(fixed_s_[joint]) ? fixed_s_[joint] : fixed_s_[joint] * loads.half_length;
+}
+
+void Chain::set_arclength(VectorXd& x, int joint, double s) const {
+  if (joints_[joint]->locates()) x(joint_at_[joint] + joints_[joint]->ambient()) = s;
+}
+
+VectorXd Chain::force(const VectorXd& x, const Loads& loads, int link) const {
+  const Link& l = links_[link];
+  if (l.pull == 0) return x.segment(force_at_[link], l.arc->forces());
+  VectorXd n = VectorXd::Zero(l.arc->forces());
+  n(0) = loads.tension * std::cos(0.5 * loads.angle);
+  n(1) = l.pull * loads.tension * std::sin(0.5 * loads.angle);
+  return n;
+}
+
+Chain::Placed Chain::place(const VectorXd& x, const Loads& loads, int link) const {
+  Placed p;
+  p.left = joints_[link]->attach(Side::right, coordinates(x, link), loads);
+  p.right = joints_[link + 1]->attach(Side::left, coordinates(x, link + 1), loads);
+  p.n = force(x, loads, link);
+  p.interior = interior(x, link);
+  p.length = arclength(x, loads, link + 1) - arclength(x, loads, link);
+  if (std::isinf(p.length)) p.length = tail_decay_lengths / std::sqrt(p.n.norm());
+  if (!(p.length > 0.0)) throw std::domain_error("an arc's length is not positive");
+  return p;
+}
+
+VectorXd Chain::retract(const VectorXd& x, const VectorXd& dx) const {
+  VectorXd out = x;
+  for (int j = 0; j < joint_count(); ++j) {
+    const Joint& joint = *joints_[j];
+    const double* step = dx.data() + numbering_.coordinate[j];
+    joint.retract(coordinates(x, j), step, coordinates(out, j));
+    if (joint.locates()) out(joint_at_[j] + joint.ambient()) += dx(numbering_.arclength[j]);
+  }
+  for (int i = 0; i < link_count(); ++i) {
+    const Arc& arc = *links_[i].arc;
+    if (links_[i].pull == 0) out.segment(force_at_[i], arc.forces()) += dx.segment(numbering_.force[i], arc.forces());
+    if (arc.ambient() == 4) {
+      for (int k = 0; k < arc.interior_nodes(); ++k)
+        out.segment<4>(interior_at_[i] + 4 * k) =
+            rod::retract(x.segment<4>(interior_at_[i] + 4 * k), dx.segment<3>(interior_row_[i] + 3 * k));
+    } else {
+      out.segment(interior_at_[i], arc.interior_ambient()) += dx.segment(interior_row_[i], arc.interior_tangent());
+    }
+  }
+  return out;
+}
+
+contact::Joint::Location Chain::location(const VectorXd& x, int j) const {
+  // The neighbouring arcs' gradients at this joint: end of the arc before, start of the arc after.
+  SmallVector left, right;
+  if (j > 0) {
+    const int d = links_[j - 1].arc->tangent();
+    left = gradients_[j - 1].segment(d, d);
+  }
+  if (j < link_count()) right = gradients_[j].head(links_[j].arc->tangent());
+  return joints_[j]->location(coordinates(x, j), left, right);
+}
+
+VectorXd Chain::residual(const VectorXd& x, const Loads& loads) const {
+  VectorXd f = VectorXd::Zero(size_);
+  for (int i = 0; i < link_count(); ++i) {
+    const Arc& arc = *links_[i].arc;
+    const Placed p = place(x, loads, i);
+    bvp::EndsVector& g = gradients_[i];
+    arc.gradient(p.point(), f.data() + interior_row_[i], g);
+    const int d = arc.tangent(), forces = arc.forces();
+    const Eigen::Index left = numbering_.coordinate[i], right = numbering_.coordinate[i + 1];
+    f.segment(left, p.left.dq.cols()) += p.left.dq.transpose() * g.head(d) - p.left.dx.transpose() * p.n;
+    f.segment(right, p.right.dq.cols()) += p.right.dq.transpose() * g.segment(d, d) + p.right.dx.transpose() * p.n;
+    if (links_[i].pull == 0) f.segment(numbering_.force[i], forces) = g.segment(2 * d, forces) + p.right.x - p.left.x;
+  }
+  for (int j = 0; j < joint_count(); ++j) {
+    f.segment(numbering_.coordinate[j], joints_[j]->tangent()) += joints_[j]->dead_load(coordinates(x, j), loads);
+    if (numbering_.arclength[j] >= 0) f(numbering_.arclength[j]) = location(x, j).value;
+  }
+  return f;
+}
+
+}  // namespace windlass::chain

@@ -1,0 +1,97 @@
+#include "windlass/chain/chain.hpp"
+
+namespace windlass::chain {
+
+using contact::Parity;
+using Sparse = Eigen::SparseMatrix<double>;
+using Triplet = Eigen::Triplet<double>;
+
+Sparse Chain::scatter(const MatrixXd& ends, const Local& local, Eigen::Index dense, int link) const {
+  const Eigen::Index interior = links_[link].arc->interior_tangent(), shift = dense - dense_size_;
+  std::vector<Triplet> entries;
+  for (Eigen::Index k = 0; k < interior; ++k) entries.emplace_back(k, interior_row_[link] + shift + k, 1.0);
+  for (Eigen::Index e = 0; e < ends.rows(); ++e)
+    for (Eigen::Index c = 0; c < ends.cols(); ++c)
+      if (ends(e, c) != 0.0) entries.emplace_back(interior + e, local.dofs[c], ends(e, c));
+  Sparse map(interior + ends.rows(), size_ + shift);
+  map.setFromTriplets(entries.begin(), entries.end());
+  return map;
+}
+
+Sparse Chain::sparse_hessian(Purpose purpose, const Placed& placed, int link) const {
+  const Arc& arc = *links_[link].arc;
+  std::vector<Triplet> entries;
+  arc.hessian(placed.point(), entries);
+  const int interior = arc.interior_tangent(), ends = arc.ends();
+  bvp::EndsMatrix commutator = with_commutator(arc, bvp::EndsMatrix::Zero(ends, ends), gradients_[link]);
+  // Odd variations at a symmetry point: the other half carries the opposite moment, the commutators cancel.
+  if (purpose == Purpose::odd && link == 0 && arc.ambient() == 4) commutator.topLeftCorner(3, 3).setZero();
+  for (int i = 0; i < ends; ++i)
+    for (int j = 0; j < ends; ++j)
+      if (commutator(i, j) != 0.0) entries.emplace_back(interior + i, interior + j, commutator(i, j));
+  Sparse h(interior + ends, interior + ends);
+  h.setFromTriplets(entries.begin(), entries.end());
+  return h;
+}
+
+Chain::SecondVariation Chain::second_variation(const VectorXd& x, const Loads& loads, Parity parity) const {
+  const bool half = joints_[0]->kind() == contact::JointKind::mid || fixed_s_[0] == 0.0;
+  const Purpose purpose = parity == Parity::odd && half ? Purpose::odd : Purpose::even;
+  residual(x, loads);  // leaves the arcs' gradients
+  const Numbering numbering = number(purpose);
+  const Eigen::Index total = size_ - dense_size_ + numbering.size;
+  SecondVariation out;
+  out.constraints = numbering.constraints;
+  out.matrix.resize(total, total);
+  out.metric.resize(total, total);
+  MatrixXd dense = variation_matrix(purpose, numbering, x, loads);
+  for (int i = 0; i < link_count(); ++i) {
+    const Placed placed = place(x, loads, i);
+    const Local l = local(purpose, numbering, x, loads, i);
+    const Sparse map = scatter(l.columns, l, numbering.size, i);
+    out.matrix += Sparse(map.transpose() * sparse_hessian(purpose, placed, i) * map);
+    out.metric += Sparse(map.transpose() * links_[i].arc->metric(placed.point()).asDiagonal() * map);
+  }
+  std::vector<Triplet> entries;
+  for (Eigen::Index i = 0; i < dense.rows(); ++i)
+    for (Eigen::Index j = 0; j < dense.cols(); ++j)
+      if (dense(i, j) != 0.0) entries.emplace_back(i, j, dense(i, j));
+  Sparse joints(total, total);
+  joints.setFromTriplets(entries.begin(), entries.end());
+  out.matrix += joints;
+  out.matrix = Sparse(0.5 * (out.matrix + Sparse(out.matrix.transpose())));
+  return out;
+}
+
+VectorXd Chain::as_increment(const VectorXd& variation, Parity parity) const {
+  const bool half = joints_[0]->kind() == contact::JointKind::mid || fixed_s_[0] == 0.0;
+  const Numbering numbering = number(parity == Parity::odd && half ? Purpose::odd : Purpose::even);
+  VectorXd dx = VectorXd::Zero(size_);
+  for (int j = parity == Parity::odd && half ? 1 : 0; j < joint_count(); ++j)
+    dx.segment(numbering_.coordinate[j], joints_[j]->tangent()) =
+        variation.segment(numbering.coordinate[j], joints_[j]->tangent());
+  dx.tail(size_ - dense_size_) = variation.tail(size_ - dense_size_);
+  return dx;
+}
+
+Sparse Chain::jacobian(const VectorXd& x, const Loads& loads) const {
+  residual(x, loads);
+  Sparse out(size_, size_);
+  MatrixXd dense = MatrixXd::Zero(dense_size_, dense_size_);
+  for (int i = 0; i < link_count(); ++i) {
+    const Local l = local(Purpose::equilibrium, numbering_, x, loads, i);
+    const Sparse columns = scatter(l.columns, l, dense_size_, i), rows = scatter(l.rows, l, dense_size_, i);
+    out += Sparse(rows.transpose() * sparse_hessian(Purpose::equilibrium, place(x, loads, i), i) * columns);
+    add_joint_terms(Purpose::equilibrium, numbering_, x, loads, i, gradients_[i], dense);
+  }
+  add_locations(x, dense);
+  std::vector<Triplet> entries;
+  for (Eigen::Index i = 0; i < dense_size_; ++i)
+    for (Eigen::Index j = 0; j < dense_size_; ++j)
+      if (dense(i, j) != 0.0) entries.emplace_back(i, j, dense(i, j));
+  Sparse joints(size_, size_);
+  joints.setFromTriplets(entries.begin(), entries.end());
+  return out + joints;
+}
+
+}  // namespace windlass::chain

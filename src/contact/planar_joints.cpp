@@ -1,0 +1,131 @@
+#include "windlass/contact/planar_joints.hpp"
+
+#include <cmath>
+
+namespace windlass::contact::planar {
+
+namespace {
+
+SmallVector place(double a) {
+  SmallVector x(2);
+  x << std::sin(a), -std::cos(a);
+  return x;
+}
+
+SmallVector place_slope(double a) {
+  SmallVector x(2);
+  x << std::cos(a), std::sin(a);
+  return x;
+}
+
+Attachment fixed(double theta, const SmallVector& x, int coordinates = 0) {
+  Attachment at;
+  at.q = Coordinates::Constant(1, theta);
+  at.dq = SmallMatrix::Zero(1, coordinates);
+  at.x = x;
+  at.dx = SmallMatrix::Zero(x.size(), coordinates);
+  return at;
+}
+
+}  // namespace
+
+Attachment Touch::attach(Side, const double* w, const Loads&) const {
+  Attachment at = fixed(w[1], place(w[0]), 2);
+  at.dq(0, 1) = 1.0;
+  at.dx.col(0) = place_slope(w[0]);
+  return at;
+}
+
+void Touch::curvature(Side, const double* w, const Loads&, const SmallVector&, const SmallVector& f,
+                      SmallMatrix& out) const {
+  out(0, 0) -= f.dot(place(w[0]));
+}
+
+Joint::Location Touch::location(const double* w, const SmallVector&, const SmallVector&) const {
+  Location c;
+  c.value = std::sin(w[0] - w[1]);
+  c.by_w = SmallVector(2);
+  c.by_w << std::cos(w[0] - w[1]), -std::cos(w[0] - w[1]);
+  return c;
+}
+
+Attachment Edge::attach(Side side, const double* w, const Loads&) const {
+  if (side == line_) {
+    Attachment at;
+    at.q = Coordinates(0);
+    at.dq = SmallMatrix(0, 1);
+    at.x = SmallVector::Constant(1, w[0]);
+    at.dx = SmallMatrix::Ones(1, 1);
+    return at;
+  }
+  Attachment at = fixed(w[0], place(w[0]), 1);
+  at.dq(0, 0) = 1.0;
+  at.dx.col(0) = place_slope(w[0]);
+  return at;
+}
+
+void Edge::curvature(Side side, const double* w, const Loads&, const SmallVector&, const SmallVector& f,
+                     SmallMatrix& out) const {
+  if (side != line_) out(0, 0) -= f.dot(place(w[0]));
+}
+
+Joint::Location Edge::location(const double*, const SmallVector& g_left, const SmallVector& g_right) const {
+  Location c;
+  c.by_w = SmallVector::Zero(1);
+  if (line_ == Side::left) {  // the free arc starts here: ∂S/∂θ_a = −m
+    c.side = Side::right;
+    c.value = -g_right(0) - stiffness_;
+    c.by_gradient = SmallVector::Constant(1, -1.0);
+  } else {
+    c.side = Side::left;
+    c.value = g_left(0) - stiffness_;
+    c.by_gradient = SmallVector::Constant(1, 1.0);
+  }
+  return c;
+}
+
+Attachment MidLine::attach(Side, const double*, const Loads&) const {
+  Attachment at;
+  at.q = Coordinates(0);
+  at.dq = SmallMatrix(0, 0);
+  at.x = SmallVector::Zero(1);
+  at.dx = SmallMatrix(1, 0);
+  return at;
+}
+
+Attachment MidGap::attach(Side, const double* w, const Loads&) const {
+  SmallVector x(2);
+  x << 0.0, w[0];
+  Attachment at = fixed(0.0, x, 1);
+  at.dx(1, 0) = 1.0;
+  return at;
+}
+
+Attachment MidGap::attach_odd(const double* w, const Loads& loads) const {
+  Attachment at = attach(Side::right, w, loads);
+  at.dq = SmallMatrix::Ones(1, 1);
+  at.dx = SmallMatrix::Zero(2, 1);
+  return at;
+}
+
+Attachment MidTouch::attach(Side, const double*, const Loads&) const { return fixed(0.0, place(0.0)); }
+
+Attachment MidTouch::attach_odd(const double*, const Loads&) const {
+  Attachment at = fixed(0.0, place(0.0), 2);
+  at.dx.col(0) = place_slope(0.0);
+  at.dq(0, 1) = 1.0;
+  return at;
+}
+
+void MidTouch::curvature_odd(const double*, const SmallVector& f, SmallMatrix& out) const {
+  out(0, 0) -= f.dot(place(0.0));
+}
+
+Attachment End::attach(Side, const double* w, const Loads& loads) const {
+  const double along = arc_ == Side::left ? 0.5 * loads.angle : -0.5 * loads.angle;
+  Attachment at = fixed(clamped_ ? along : w[0], SmallVector::Zero(2), tangent());
+  if (!clamped_) at.dq(0, 0) = 1.0;
+  return at;
+}
+
+}  // namespace windlass::contact::planar
