@@ -173,9 +173,8 @@ bool LocusWalker::rebase(std::shared_ptr<Problem> problem, const Vector& x, cons
         if (!jacobian) return failure = system_->failure(), fail();
       }
     }
-    // The base's own solution again, after the differences moved the guess away.
-    if (!system_->residual(system_->base())) return failure = system_->failure(), fail();
     jacobian_ = *jacobian;
+    z_ = system_->base();
     const bool same_space = orientation.size() == system_->size() && problem == problem_;
     tangent_ = free_direction(jacobian_, scale_);
     const Eigen::Index compared = same_space ? system_->size() : 2;
@@ -210,6 +209,7 @@ void LocusWalker::start() {
   points_ = 1;
   start_p_ = p_;
   start_tangent_ = tangent_;
+  system_->residual(z_);  // the differences moved away
   LocusPoint point = make(LocusPoint::Type::start, {});
   point.null = system_->refreshed();
   queue_.push_back(std::move(point));
@@ -223,7 +223,7 @@ void LocusWalker::advance() {
   const std::pair<double, double> bounds[] = {{options_.options.lower, options_.options.upper},
                                               {options_.second_lower, options_.second_upper}};
   for (int i = 0; i < 2; ++i) {
-    const double at = system_->base()[i];
+    const double at = z_[i];
     if ((at <= bounds[i].first && tangent_[i] < 0.0) || (at >= bounds[i].second && tangent_[i] > 0.0)) {
       end_ = End{End::Kind::bound, "a parameter leaves its bounds"};
       return;
@@ -251,7 +251,7 @@ double LocusWalker::degeneracy(const Matrix& j) const {
 }
 
 bool LocusWalker::advance_once(std::string& failure) {
-  const Vector base = system_->base();
+  const Vector base = z_;
   const double ds = step_length_.current();
   const Vector row = tangent_.cwiseQuotient(scale_.cwiseAbs2());
   const auto at = [&](double s, const Vector& guess, std::string& why) {
@@ -327,10 +327,13 @@ bool LocusWalker::advance_once(std::string& failure) {
       reason = End{End::Kind::closed, "closed: the locus is back at its start"};
   }
 
-  // The solution's own values (other solves came in between), then a degenerate point passed on the way.
-  if (!system_->residual(end->z)) return failure = system_->failure(), false;
+  // The solution's own values (other solves may have come in between), then a degenerate point passed on the way.
   const std::optional<Vector> r = system_->residual(end->z);
-  const std::optional<Matrix> at_end = r ? system_->jacobian(end->z, *r) : std::nullopt;
+  if (!r) return failure = system_->failure(), false;
+  LocusPoint point = make(crossed.empty() && reason ? LocusPoint::Type::end : LocusPoint::Type::regular, *end);
+  point.null = system_->refreshed();
+  point.ds = s_end;
+  const std::optional<Matrix> at_end = system_->jacobian(end->z, *r);
   if (!at_end) return failure = system_->failure(), false;
   const double before = degeneracy(jacobian_), after = degeneracy(*at_end);
   if (before * after < 0.0 && s_end > 0.0) {
@@ -347,27 +350,25 @@ bool LocusWalker::advance_once(std::string& failure) {
     const Bracket bracket = find_zero(0.0, before, s_end, after, 1e-7 * ds, value);  // differences: no better
     if (value(bracket.best)) {
       system_->residual(found.z);
-      LocusPoint point = make(LocusPoint::Type::degenerate, found);
-      point.problem = problem_->clone();
-      point.null = system_->refreshed();
-      point.note = kind_ == LocusKind::fold           ? "cusp"
+      LocusPoint special = make(LocusPoint::Type::degenerate, found);
+      special.problem = problem_->clone();
+      special.null = system_->refreshed();
+      special.note = kind_ == LocusKind::fold           ? "cusp"
                    : kind_ == LocusKind::branch_point ? "the two branches are tangent"
                                                       : "the event function is tangent to the branch";
-      point.precision = bracket.hi - bracket.lo;
-      point.ds = bracket.best;
-      queue_.push_back(std::move(point));
+      special.precision = bracket.hi - bracket.lo;
+      special.ds = bracket.best;
+      queue_.push_back(std::move(special));
     }
-    if (!system_->residual(end->z)) return failure = system_->failure(), false;
+    if (!system_->residual(end->z)) return queue_.clear(), failure = system_->failure(), false;
   }
   const double imperfection = system_->imperfection(*at_end);
-  if (!system_->residual(end->z)) return failure = system_->failure(), false;
-  if (!settle(*end, failure)) return queue_.clear(), false;
+  if (!settle(*end, *at_end, point, failure)) return queue_.clear(), false;
   ++points_;
-  if (crossed.empty() && !reason && imperfection > 1e-4)
+  if (crossed.empty() && !reason && imperfection > 1e-4) {
     reason = End{End::Kind::event, "the branch point comes apart: its two branches no longer meet"};
-  LocusPoint point = make(crossed.empty() && reason ? LocusPoint::Type::end : LocusPoint::Type::regular, *end);
-  point.null = system_->refreshed();
-  point.ds = s_end;
+    point.type = LocusPoint::Type::end;
+  }
   if (!crossed.empty()) {
     point.type = LocusPoint::Type::event;
     const auto which = std::find_if(events_.begin(), events_.end(), [&](const auto& e) { return e.name == crossed; });
@@ -385,10 +386,22 @@ bool LocusWalker::advance_once(std::string& failure) {
   return true;
 }
 
-bool LocusWalker::settle(const Solution&, std::string& failure) {
-  const Vector x = system_->value().it.x, p = system_->value().it.p;
+// Goes on from the solution in the same system; a new base only where its borders are no longer close to null vectors.
+bool LocusWalker::settle(const Solution& solution, const Matrix& jacobian, LocusPoint& point, std::string& failure) {
   const Vector orientation = tangent_;
-  return rebase(problem_, x, p, system_->refreshed(), orientation, failure);
+  if (system_->alignment() < 0.9) {
+    if (!rebase(problem_, point.x, point.p, point.null, orientation, failure)) return false;
+  } else {
+    z_ = solution.z;
+    jacobian_ = jacobian;
+    tangent_ = free_direction(jacobian_, scale_);
+    if (tangent_.cwiseQuotient(scale_).dot(orientation.cwiseQuotient(scale_)) < 0.0) tangent_ = -tangent_;
+    x_ = point.x;
+    p_ = point.p;
+    events_ = problem_->events(x_, p_);
+  }
+  point.tangent = tangent_;
+  return true;
 }
 
 void LocusWalker::adapt() {
@@ -437,7 +450,7 @@ void LocusWalker::pass(LocusPoint point, std::size_t which, const std::string& e
   if (!rebase(transition->problem, transition->state, p_, std::nullopt, orientation, failure))
     return finish(std::string("the ") + name(kind_) + " is not found beyond it (" + failure + ")");
   // Valid beyond: no event negative a little further on.
-  const Vector base = system_->base(), row = tangent_.cwiseQuotient(scale_.cwiseAbs2());
+  const Vector base = z_, row = tangent_.cwiseQuotient(scale_.cwiseAbs2());
   for (const int sign : {1, -1}) {
     for (const double part : {0.1, 0.01, 1e-3}) {
       const double s = sign * part * step_length_.current();

@@ -69,6 +69,8 @@ Vector LocusSystem::parameters(const Vector& z) const {
 }
 
 std::optional<Vector> LocusSystem::residual(const Vector& z) {
+  if (last_z_.size() == z.size() && last_z_ == z) return last_residual_;
+  last_z_.resize(0);
   const Vector p = parameters(z);
   const Vector alpha = size() == 3 ? Vector::Constant(1, z[2]) : Vector::Zero(multiplicity_);
   std::optional<Reduced::Value> value = reduced_.at(p, alpha);
@@ -98,7 +100,19 @@ std::optional<Vector> LocusSystem::residual(const Vector& z) {
   }
   if (!r.allFinite()) return failure_ = "the locus equations are not finite", std::nullopt;
   value_ = std::move(value);
+  last_z_ = z;
+  last_residual_ = r;
   return r;
+}
+
+double LocusSystem::alignment() const {
+  const Matrix& x_alpha = value_->x_alpha;
+  const Matrix& border = reduced_.null().right;
+  double least = 1.0;
+  for (Eigen::Index i = 0; i < border.cols(); ++i)
+    least = std::min(least, std::abs(x_alpha.col(i).dot(border.col(i))) /
+                                (x_alpha.col(i).norm() * border.col(i).norm()));
+  return least;
 }
 
 std::optional<Matrix> LocusSystem::jacobian(const Vector& z, const Vector& at_z) {

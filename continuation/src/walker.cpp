@@ -136,8 +136,9 @@ void Walker::settle(Segment& segment, Sample& sample) {
   tangent_ = sample.tangent;
   index_ = sample.index;
   determinant_ = sample.determinant;
-  events_ = sample.events;
+  previous_events_ = std::exchange(events_, sample.events);
   path_length_ += sample.s;
+  last_ds_ = sample.s;
   for (const EventFunction& event : events_) {
     if (std::abs(event.value) > options_.event_zero) signs_[event.name] = event.value > 0.0 ? 1 : -1;
   }
@@ -160,12 +161,44 @@ void Walker::advance() {
     std::string failure;
     if (advance_once(failure)) return;
     if (!step_length_.rejected()) {
+      if (event_at_edge()) return;
       std::ostringstream message;
       message << "Newton failed at step_min (step " << step_length_.current() << ", parameter " << parameter(p_)
               << "): " << failure;
       return lose(message.str());
     }
   }
+}
+
+// F may not exist beyond an event (a length below zero): then steps fail all the way to it. An event function that
+// vanishes within a few smallest steps, going on as between the last two points, is taken to have its zero here.
+bool Walker::event_at_edge() {
+  if (!options_.detect_events || !(last_ds_ > 0.0)) return false;
+  const double reach = 100.0 * options_.step_min;
+  for (std::size_t i = 0; i < events_.size(); ++i) {
+    const EventFunction& event = events_[i];
+    const auto before = std::find_if(previous_events_.begin(), previous_events_.end(),
+                                     [&](const EventFunction& other) { return other.name == event.name; });
+    if (before == previous_events_.end() || event.value < 0.0) continue;
+    const double rate = (event.value - before->value) / last_ds_;
+    if (event.value + rate * reach >= 0.0) continue;
+    Segment segment(problem_, options_, x_, p_, tangent_);
+    Located located;
+    located.type = PointType::event;
+    located.event = event.name;
+    located.which = i;
+    located.sample = segment.base();
+    located.index = index_;
+    located.hi = -event.value / rate;
+    located.precision = located.hi;
+    located.note = "at the edge of the domain of F, extrapolated";
+    Point point = special(segment, located);
+    ++events_in_place_;
+    ++points_;
+    pass(std::move(point), i, event.name, tangent_.p < 0.0 ? -1 : 1);
+    return true;
+  }
+  return false;
 }
 
 bool Walker::advance_once(std::string& failure) {
@@ -228,10 +261,9 @@ bool Walker::advance_once(std::string& failure) {
   if (event) {
     Point point = special(segment, *event);
     events_in_place_ = event->s > 1e-6 * options_.step_min + 1e-12 ? 0 : events_in_place_ + 1;
-    const int direction = tangent_.p < 0.0 ? -1 : 1;
     if (event->s > 0.0) settle(segment, *end);
     ++points_;
-    pass(std::move(point), event->which, event->event, tangent_.p == 0.0 ? direction : (tangent_.p < 0.0 ? -1 : 1));
+    pass(std::move(point), event->which, event->event, tangent_.p < 0.0 ? -1 : 1);
     return true;
   }
   Point point;

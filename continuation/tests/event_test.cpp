@@ -137,6 +137,31 @@ BOOST_AUTO_TEST_CASE(event_with_no_valid_side_is_lost) {
   BOOST_TEST(walker.end().reason.find("not valid in either direction") != std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(event_at_the_edge_of_the_domain) {
+  // A length 1 - x² that F cannot have negative: every trial step beyond the event fails.
+  auto first = scalar([](double x, const Vector& p) {
+    if (x > 0.7) throw std::domain_error("negative length");
+    return x - p[0];
+  });
+  first->events_of = [](const Vector& x, const Vector&) {
+    return std::vector<EventFunction>{{"other", 5.0}, {"length", 0.49 - x[0] * x[0]}};
+  };
+  first->transition_of = [](std::size_t which, const Vector& x, const Vector&) -> std::optional<Transition> {
+    if (which != 1) return std::nullopt;
+    return Transition{scalar([](double y, const Vector& p) { return y - 0.7 - 2.0 * (p[0] - 0.7); }), x, "a", "b"};
+  };
+  Options options;
+  options.target = 1.0;
+  Walker walker(first, vector({0.0}), vector({0.0}), options);
+  const auto points = walk(walker);
+  const auto events = of_type(points, PointType::event);
+  BOOST_REQUIRE_EQUAL(events.size(), 1u);
+  BOOST_TEST(std::abs(events[0].p[0] - 0.7) < 1e-5);
+  BOOST_TEST(!events[0].note.empty());
+  BOOST_TEST(points.back().p[0] == 1.0);
+  BOOST_TEST(std::abs(points.back().x[0] - 1.3) < 1e-10);
+}
+
 BOOST_AUTO_TEST_CASE(ping_pong_is_not_endless) {
   // Each problem claims to end where the other begins, on the same side.
   std::shared_ptr<AlgebraicProblem> a, b;

@@ -71,7 +71,7 @@ class LocusWalker {
   std::optional<Solution> solve(const Vector& row, double value, Vector guess, Matrix jacobian, std::string& failure);
   bool rebase(std::shared_ptr<Problem> problem, const Vector& x, const Vector& p, std::optional<NullVectors> null,
               const Vector& orientation, std::string& failure);
-  bool settle(const Solution& solution, std::string& failure);
+  bool settle(const Solution& solution, const Matrix& jacobian, LocusPoint& point, std::string& failure);
   void adapt();
   void pass(LocusPoint point, std::size_t which, const std::string& name);
   double degeneracy(const Matrix& jacobian) const;
@@ -84,6 +84,7 @@ class LocusWalker {
   std::shared_ptr<Problem> problem_;
   Vector x_, p_;
   std::unique_ptr<LocusSystem> system_;
+  Vector z_;  // where the locus is, in the system's unknowns
   Matrix jacobian_;
   Vector tangent_, scale_;
   StepLength step_length_;

@@ -36,7 +36,7 @@ class LocusSystem {
   /// z of the base: (λ, μ, 0).
   Vector base() const;
 
-  /// The size() − 1 residuals at z; nullopt where F cannot be solved, see failure().
+  /// The size() − 1 residuals at z; nullopt where F cannot be solved, see failure(). Free at the last z again.
   std::optional<Vector> residual(const Vector& z);
 
   /// Derivative of the residuals by differences, (size() − 1)×size(). `at_z`: the residual there.
@@ -45,8 +45,11 @@ class LocusSystem {
   /// The solution of the last successful call of residual.
   const Reduced::Value& value() const { return *value_; }
 
-  /// Null vectors there, for the next base.
+  /// Null vectors there, for the next base; right after `residual` only.
   NullVectors refreshed() { return reduced_.refreshed(*value_); }
+
+  /// Cosine of the angle between the null vector there and the border; the system wants a new base when it is small.
+  double alignment() const;
 
   /// Distance in the plane of y's arguments by which a crossing has come apart, sqrt(|y| / |∂²y|); 0 but for
   /// branch points.
@@ -68,6 +71,7 @@ class LocusSystem {
   Reduced reduced_;
   Matrix weight_;
   std::optional<Reduced::Value> value_;
+  Vector last_z_, last_residual_;  // empty: the last evaluation failed
   std::string failure_;
 };
 

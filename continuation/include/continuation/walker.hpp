@@ -55,6 +55,7 @@ class Walker {
   bool limit(Segment& segment, Sample*& end, Located* fold, End& reason);
   Sample* close(Segment& segment, Sample& end, Located* fold);
   void remember_start();
+  bool event_at_edge();
   void settle(Segment& segment, Sample& sample);
   Point special(Segment& segment, const Located& located);
   void adapt();
@@ -75,7 +76,8 @@ class Walker {
   Options options_;
   StepLength step_length_;
   int index_ = -1, determinant_ = 0;
-  std::vector<EventFunction> events_;
+  std::vector<EventFunction> events_, previous_events_;
+  double last_ds_ = 0.0;
   EventSigns signs_;
   double path_length_ = 0.0;
   int points_ = 0;
