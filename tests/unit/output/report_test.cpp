@@ -1,0 +1,129 @@
+#include "windlass/output/report.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cstdio>
+#include <fstream>
+
+#include "synthetic_run.hpp"
+#include "temporary_folder.hpp"
+#include "windlass/output/error.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace windlass;
+
+/// Output of a shell command, stderr included.
+std::string output_of(const std::string& command) {
+  std::string text;
+  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  char buffer[4096];
+  while (fgets(buffer, sizeof buffer, pipe) != nullptr) text += buffer;
+  pclose(pipe);
+  return text;
+}
+
+/// True when the report can be made, i.e. Plotly was there at build time.
+bool built_with_plotly(const fs::path& run) {
+  try {
+    output::write_report(run);
+    return true;
+  } catch (const output::OutputError& error) {
+    BOOST_TEST(std::string(error.what()).find("npm") != std::string::npos);
+    BOOST_TEST_MESSAGE("skipped: " << error.what());
+    return false;
+  }
+}
+
+std::string attribute(const std::string& page, const std::string& name) {
+  const std::size_t at = page.find(name + "=\"");
+  if (at == std::string::npos) return {};
+  const std::size_t begin = at + name.size() + 2;
+  return page.substr(begin, page.find('"', begin) - begin);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(report)
+
+BOOST_AUTO_TEST_CASE(data_hold_every_point_and_its_rod) {
+  const test::TemporaryFolder temporary;
+  test::write_synthetic_run(temporary / "run");
+  const output::Run run = output::read_run(temporary / "run");
+  const auto data = output::report_data(run, {});
+  std::size_t points = 0;
+  for (const auto& branch : data["branches"]) {
+    points += branch["names"].size();
+    for (const auto& column : branch["values"]) BOOST_TEST(column.size() == branch["names"].size());
+    for (const auto& name : branch["names"]) BOOST_TEST(data["rods"].contains(name.get<std::string>()));
+  }
+  BOOST_TEST(points == run.rows.size());
+  const auto& rod = data["rods"]["BP1"];
+  BOOST_TEST(rod["forces"].size() == 2u);
+  BOOST_TEST(rod["forces"][0]["f"].get<double>() == std::sqrt(4 * 1.6 - 1) / 2,
+             boost::test_tools::tolerance(1e-4));
+  BOOST_TEST(rod["mode"]["plane"] == "out");
+  BOOST_TEST(rod["mode"]["r"].size() == rod["mode"]["d"].size());
+  BOOST_TEST(data.dump().find("nan") == std::string::npos);
+  output::ReportOptions few;
+  few.most_rods = 10;
+  const auto thinned = output::report_data(run, few);
+  BOOST_TEST(thinned["rods"].size() < 15u);
+  BOOST_TEST(thinned["rods"].contains("BP1"));
+}
+
+BOOST_AUTO_TEST_CASE(page_is_self_contained) {
+  const test::TemporaryFolder temporary;
+  test::write_synthetic_run(temporary / "run");
+  if (!built_with_plotly(temporary / "run")) return;
+  const std::string page = output::read_file(temporary / "run/report.html");
+  for (const char* outside : {"<script src", "<link rel=\"stylesheet", "@import"}) {
+    BOOST_TEST(page.find(outside) == std::string::npos, outside);
+  }
+  BOOST_TEST(page.find("/*DATA*/") == std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(clicking_a_point_changes_the_rod) {
+  const test::TemporaryFolder temporary;
+  test::write_synthetic_run(temporary / "run");
+  if (!built_with_plotly(temporary / "run")) return;
+  if (output_of("command -v chromium").empty()) {
+    BOOST_TEST_MESSAGE("chromium is not installed: skipped");
+    return;
+  }
+  // a visitor who clicks point 2-20, hides branch 1 and bends the rod by its mode; findings go into the document
+  std::ofstream(temporary / "run/report.html", std::ios::app) << R"(<script>
+    const body = document.body.dataset, rod = document.getElementById("rod"), diagram = document.getElementById("diagram");
+    const reach = () => Math.max(...rod.data.filter((t) => t.type === "scatter3d").flatMap((t) => t.z).map((z) => Math.abs(z || 0)));
+    body.first = body.point; body.firstReach = reach();
+    diagram.emit("plotly_click", {points: [{customdata: "2-20"}]});
+    body.second = body.point; body.secondReach = reach();
+    body.traces = diagram.data.length;
+    document.querySelector("[data-branch='1']").click();
+    body.fewer = diagram.data.length;
+    const slider = document.getElementById("amplitude");
+    slider.value = 1; slider.dispatchEvent(new Event("input"));
+    body.mode = rod.data[0].visible;
+    document.getElementById("y").value = "tilt"; document.getElementById("y").dispatchEvent(new Event("change"));
+    body.up = diagram.layout.yaxis.title.text;
+  </script>)";
+  const std::string page = output_of(
+      "chromium --headless --no-sandbox --disable-gpu --use-angle=swiftshader --enable-unsafe-swiftshader "
+      "--enable-logging=stderr --virtual-time-budget=10000 --user-data-dir='" +
+      (temporary / "profile").string() + "' --dump-dom 'file://" + (temporary / "run/report.html").string() +
+      "'");
+  // errors reach the log as `...:CONSOLE:LINE] "Uncaught ..."`; Plotly's own text holds that word too
+  BOOST_TEST(page.find("] \"Uncaught") == std::string::npos);
+  BOOST_TEST(page.find("ERROR:CONSOLE") == std::string::npos);
+  BOOST_TEST(attribute(page, "data-ready") == "yes");
+  BOOST_TEST(attribute(page, "data-first") == "BP1");
+  BOOST_TEST(std::stod("0" + attribute(page, "data-first-reach")) < 1e-12);  // planar
+  BOOST_TEST(attribute(page, "data-second") == "2-20");
+  BOOST_TEST(std::stod("0" + attribute(page, "data-second-reach")) > 0.5);  // helical
+  BOOST_TEST(std::stoi("0" + attribute(page, "data-fewer")) <
+             std::stoi("0" + attribute(page, "data-traces")));
+  BOOST_TEST(attribute(page, "data-mode") == "true");
+  BOOST_TEST(attribute(page, "data-up") == "tilt at the mid-point [rad]");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
