@@ -1,0 +1,125 @@
+#include "sparse_spectrum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace windlass::stability {
+
+using chain::Chain;
+using Eigen::Index;
+using Eigen::VectorXd;
+using petsc::check;
+using Sparse = Eigen::SparseMatrix<double>;
+
+namespace {
+
+/// Shifts tried when K is singular to rounding.
+constexpr double shifts[] = {0.0, -1e-7, -1e-5, -1e-3};
+
+Sparse zero_like(const Sparse& matrix) {
+  Sparse zero = matrix;
+  zero.coeffs().setZero();
+  return zero;
+}
+
+/// At least as many finite eigenvalues there are: unknowns that weigh something, less the constraints.
+int finite_eigenvalues(const Chain::SecondVariation& variation) {
+  const VectorXd weights = variation.metric.diagonal();
+  return static_cast<int>((weights.array() > 0.0).count()) - variation.constraints;
+}
+
+}  // namespace
+
+SparseSpectrum::SparseSpectrum() {
+  check(EPSCreate(PETSC_COMM_SELF, eps_.put()));
+  check(EPSSetProblemType(eps_, EPS_GHEP));
+  check(EPSSetType(eps_, EPSKRYLOVSCHUR));
+  check(EPSSetWhichEigenpairs(eps_, EPS_TARGET_MAGNITUDE));
+  check(EPSSetTolerances(eps_, 1e-11, 500));
+  ST st = nullptr;
+  KSP ksp = nullptr;
+  PC pc = nullptr;
+  check(EPSGetST(eps_, &st));
+  check(STSetType(st, STSINVERT));
+  check(STSetMatStructure(st, SUBSET_NONZERO_PATTERN));
+  check(STGetKSP(st, &ksp));
+  check(KSPSetType(ksp, KSPPREONLY));
+  check(KSPGetPC(ksp, &pc));
+  check(PCSetType(pc, PCCHOLESKY));
+  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  check(EPSSetFromOptions(eps_));
+}
+
+int SparseSpectrum::negative_pivots() const {
+  ST st = nullptr;
+  KSP ksp = nullptr;
+  PC pc = nullptr;
+  Mat factors = nullptr;
+  PetscInt negative = 0;
+  check(EPSGetST(eps_, &st));
+  check(STGetKSP(st, &ksp));
+  check(KSPGetPC(ksp, &pc));
+  check(PCFactorGetMatrix(pc, &factors));
+  // Zero pivots are not asked for: MUMPS would have to look for null pivots, which perturbs the factors.
+  check(MatGetInertia(factors, &negative, nullptr, nullptr));
+  return static_cast<int>(negative);
+}
+
+int SparseSpectrum::factor(const Chain::SecondVariation& variation) {
+  // K takes in M's pattern, so that K − σM has K's.
+  matrix_ = petsc::symmetric(variation.matrix + zero_like(variation.metric));
+  metric_ = petsc::symmetric(variation.metric);
+  check(EPSSetOperators(eps_, matrix_, metric_));
+  for (const double shift : shifts) {
+    shift_ = shift;
+    check(EPSSetTarget(eps_, shift));
+    try {
+      check(EPSSetUp(eps_));
+      return negative_pivots();
+    } catch (const petsc::Error&) {
+      if (shift == shifts[std::size(shifts) - 1]) throw;
+    }
+  }
+  return 0;
+}
+
+EigenPairs SparseSpectrum::solve_for(int wanted) {
+  check(EPSSetDimensions(eps_, wanted, PETSC_DEFAULT, PETSC_DEFAULT));
+  check(EPSSolve(eps_));
+  PetscInt converged = 0;
+  check(EPSGetConverged(eps_, &converged));
+  PetscInt n = 0;
+  check(MatGetSize(matrix_, &n, nullptr));
+  EigenPairs out;
+  out.values.resize(converged);
+  out.vectors.resize(n, converged);
+  petsc::VecHandle vector = petsc::zero_vector(n);
+  VectorXd column;
+  for (PetscInt k = 0; k < converged; ++k) {
+    check(EPSGetEigenpair(eps_, k, &out.values(k), nullptr, vector, nullptr));
+    petsc::copy(vector, column);
+    out.vectors.col(k) = column;
+  }
+  return out;
+}
+
+EigenPairs SparseSpectrum::solve(const Chain::SecondVariation& variation, int count) {
+  const int index = factor(variation) - variation.constraints;
+  const int most = std::max(1, finite_eigenvalues(variation));
+  for (int wanted = std::min(count + std::max(index, 0), most);; wanted = std::min(2 * wanted, most)) {
+    EigenPairs pairs = solve_for(wanted);
+    const int found = static_cast<int>(pairs.values.size());
+    if (found < wanted)
+      throw std::runtime_error("spectrum: only " + std::to_string(found) + " of " + std::to_string(wanted) +
+                               " eigenvalues converged");
+    const int below = static_cast<int>((pairs.values.array() < shift_).count());
+    if (below < index && wanted < most) continue;
+    pairs.shift = shift_;
+    pairs.inertia_index = index;
+    return pairs;
+  }
+}
+
+}  // namespace windlass::stability
