@@ -7,7 +7,8 @@
 
 namespace continuation {
 
-// Brent 1973, Algorithms for Minimization without Derivatives, ch. 4 (zeroin): [b, c] holds the zero, |f(b)| <= |f(c)|.
+// Brent 1973, Algorithms for Minimization without Derivatives, ch. 4 (zeroin): [b, c] holds the zero, |f(b)|
+// <= |f(c)|.
 Bracket find_zero(double lo, double f_lo, double hi, double f_hi, double tolerance,
                   const std::function<std::optional<double>(double)>& f) {
   double a = lo, fa = f_lo, b = hi, fb = f_hi, c = a, fc = fa;

@@ -66,14 +66,15 @@ std::vector<Vector2> isotropic_directions(const Matrix2& h) {
   if (!(discriminant > 0.0)) return {};
   std::vector<Vector2> directions;
   for (const double root : {std::sqrt(discriminant), -std::sqrt(discriminant)}) {
-    const Vector2 one(-h(0, 1) + root, h(0, 0)), other(h(1, 1), -h(0, 1) - root);  // parallel; the longer is safer
+    const Vector2 one(-h(0, 1) + root, h(0, 0)),
+        other(h(1, 1), -h(0, 1) - root);  // parallel; the longer is safer
     directions.push_back((one.norm() > other.norm() ? one : other).normalized());
   }
   return directions;
 }
 
-std::optional<BranchPoint> polish_simple(Segment& segment, const Sample& lo, const Sample& hi, Reduced& reduced,
-                                         std::string& why) {
+std::optional<BranchPoint> polish_simple(Segment& segment, const Sample& lo, const Sample& hi,
+                                         Reduced& reduced, std::string& why) {
   Problem& problem = *segment.problem();
   const Options& options = segment.options();
   const Eigen::Index parameter = options.parameter;
@@ -111,18 +112,21 @@ std::optional<BranchPoint> polish_simple(Segment& segment, const Sample& lo, con
       point.x = at.it.x;
       point.p = at.it.p;
       point.u = at.it.u;
-      point.precision = std::max(std::abs(dz[0]), 4.0 * std::numeric_limits<double>::epsilon() * std::abs(z[0]));
+      point.precision =
+          std::max(std::abs(dz[0]), 4.0 * std::numeric_limits<double>::epsilon() * std::abs(z[0]));
       point.polished = true;
       point.null = reduced.refreshed(at);
       const std::vector<Vector2> directions = isotropic_directions(hessian);
-      if (directions.empty()) return why = "no two branches cross here (the reduced equation is definite)", std::nullopt;
+      if (directions.empty())
+        return why = "no two branches cross here (the reduced equation is definite)", std::nullopt;
       for (const Vector2& d : directions) {
         Tangent tangent{at.x_parameter.col(0) * d[0] + at.x_alpha.col(0) * d[1], d[0]};
         normalise(problem, tangent, scale);
         point.tangents.push_back(std::move(tangent));
       }
       const auto along = [&](const Tangent& t) { return std::abs(inner(problem, t, lo.tangent, scale)); };
-      if (along(point.tangents[1]) > along(point.tangents[0])) std::swap(point.tangents[0], point.tangents[1]);
+      if (along(point.tangents[1]) > along(point.tangents[0]))
+        std::swap(point.tangents[0], point.tangents[1]);
       return point;
     }
     previous = size;
@@ -130,8 +134,8 @@ std::optional<BranchPoint> polish_simple(Segment& segment, const Sample& lo, con
   return why = "Newton's method on the branch point equations does not converge", std::nullopt;
 }
 
-std::optional<BranchPoint> polish_multiple(Segment& segment, const Sample& lo, const Sample& hi, Reduced& reduced,
-                                           int multiplicity, std::string& why) {
+std::optional<BranchPoint> polish_multiple(Segment& segment, const Sample& lo, const Sample& hi,
+                                           Reduced& reduced, int multiplicity, std::string& why) {
   const Options& options = segment.options();
   const Eigen::Index parameter = options.parameter;
   const Vector alpha = Vector::Zero(multiplicity);
@@ -181,8 +185,8 @@ std::optional<BranchPoint> polish_multiple(Segment& segment, const Sample& lo, c
 
 }  // namespace
 
-std::optional<BranchPoint> polish_branch_point(Segment& segment, const Sample& lo, const Sample& hi, int multiplicity,
-                                               std::string& why) {
+std::optional<BranchPoint> polish_branch_point(Segment& segment, const Sample& lo, const Sample& hi,
+                                               int multiplicity, std::string& why) {
   Problem& problem = *segment.problem();
   try {
     NullVectors null = null_vectors(problem, lo.it.x, lo.it.p, multiplicity);

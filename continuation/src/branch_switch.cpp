@@ -56,10 +56,10 @@ Arms switch_branch(const Point& branch_point, const Options& options) {
     if (branch_point.branch_point && branch_point.branch_point->tangents.size() == 2) {
       directions.push_back(branch_point.branch_point->tangents[1]);
     } else {
-      const Matrix kernel =
-          branch_point.branch_point
-              ? branch_point.branch_point->null.right
-              : null_vectors(problem, branch_point.x, branch_point.p, std::max(1, branch_point.multiplicity)).right;
+      const Matrix kernel = branch_point.branch_point ? branch_point.branch_point->null.right
+                                                      : null_vectors(problem, branch_point.x, branch_point.p,
+                                                                     std::max(1, branch_point.multiplicity))
+                                                            .right;
       for (Vector& d : problem.kernel_directions(branch_point.x, branch_point.p, kernel))
         directions.push_back(Tangent{std::move(d), 0.0});
     }
@@ -79,7 +79,8 @@ Arms switch_branch(const Point& branch_point, const Options& options) {
         if (arm) break;
       }
       if (!arm) {
-        arms.failures.push_back("direction " + std::to_string(i + 1) + (sign > 0 ? " (+): " : " (-): ") + failure);
+        arms.failures.push_back("direction " + std::to_string(i + 1) + (sign > 0 ? " (+): " : " (-): ") +
+                                failure);
         continue;
       }
       const Vector fingerprint = arm->problem->fingerprint(arm->x, arm->p);

@@ -8,7 +8,9 @@
 namespace continuation {
 namespace {
 
-double rms(const Vector& x) { return x.size() == 0 ? 0.0 : x.norm() / std::sqrt(static_cast<double>(x.size())); }
+double rms(const Vector& x) {
+  return x.size() == 0 ? 0.0 : x.norm() / std::sqrt(static_cast<double>(x.size()));
+}
 
 class Newton {
  public:

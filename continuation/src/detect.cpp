@@ -19,7 +19,8 @@ double width(Segment& segment, double lo, double hi) {
 }
 
 const EventFunction* find(const std::vector<EventFunction>& events, const std::string& name) {
-  const auto it = std::find_if(events.begin(), events.end(), [&](const auto& event) { return event.name == name; });
+  const auto it =
+      std::find_if(events.begin(), events.end(), [&](const auto& event) { return event.name == name; });
   return it == events.end() ? nullptr : &*it;
 }
 
@@ -31,12 +32,12 @@ int sign_of(const EventSigns& signs, const std::string& name) {
 }  // namespace
 
 Located locate_fold(Segment& segment, const Sample& lo, const Sample& hi) {
-  const Bracket bracket =
-      find_zero(lo.s, lo.tangent.p, hi.s, hi.tangent.p, tolerance(segment), [&](double s) -> std::optional<double> {
-        const Sample* sample = segment.at(s, true);
-        if (!sample) return std::nullopt;
-        return sample->tangent.p;
-      });
+  const Bracket bracket = find_zero(lo.s, lo.tangent.p, hi.s, hi.tangent.p, tolerance(segment),
+                                    [&](double s) -> std::optional<double> {
+                                      const Sample* sample = segment.at(s, true);
+                                      if (!sample) return std::nullopt;
+                                      return sample->tangent.p;
+                                    });
   Located fold;
   fold.type = PointType::fold;
   fold.s = bracket.best;
@@ -46,7 +47,8 @@ Located locate_fold(Segment& segment, const Sample& lo, const Sample& hi) {
   fold.hi = bracket.hi;
   // p is flat at a fold: its error is half the slope at the end times the bracket.
   const double slope = std::max(std::abs(fold.sample.tangent.p), bracket.hi - bracket.lo);
-  fold.precision = std::max(slope * (bracket.hi - bracket.lo), 1e-15 * std::abs(segment.parameter(fold.sample)));
+  fold.precision =
+      std::max(slope * (bracket.hi - bracket.lo), 1e-15 * std::abs(segment.parameter(fold.sample)));
   fold.index = lo.index;
   fold.index_after = hi.index;
   if (!bracket.converged) fold.note = "bracket not converged: " + segment.failure();
@@ -92,8 +94,8 @@ std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, co
       const EventFunction* function = find(sample->events, name);
       return function ? std::optional(sign * function->value) : std::nullopt;
     };
-    const Bracket bracket =
-        find_zero(0.0, sign * first->value, top->s, sign * find(top->events, name)->value, tolerance(segment), value);
+    const Bracket bracket = find_zero(0.0, sign * first->value, top->s, sign * find(top->events, name)->value,
+                                      tolerance(segment), value);
     Sample* best = segment.at(bracket.best, false);
     if (!best) best = &segment.base();
     event.sample = *best;
@@ -114,12 +116,14 @@ std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, co
 
 namespace {
 
-// Multiplicity of the branch points between two samples, net of one fold where the tangent turns; 0: none seen.
+// Multiplicity of the branch points between two samples, net of one fold where the tangent turns; 0: none
+// seen.
 int branch_points_between(const Sample& lo, const Sample& hi) {
   if (lo.index >= 0 && hi.index >= 0) {
     const int change = std::abs(hi.index - lo.index);
     if (lo.tangent.p * hi.tangent.p >= 0.0) return change;
-    // A fold changes the index by one; unchanged across a turn, the side branch of a pitchfork goes through it.
+    // A fold changes the index by one; unchanged across a turn, the side branch of a pitchfork goes through
+    // it.
     return change == 1 ? 0 : std::max(change, 1);
   }
   return lo.determinant * hi.determinant < 0 ? 1 : 0;
@@ -129,7 +133,8 @@ void search(Segment& segment, const Sample& lo, const Sample& hi, int depth, std
   const int multiplicity = branch_points_between(lo, hi);
   if (multiplicity == 0) return;
   std::string why;
-  // The reduced equations cost about five factorisations, a halving two: they are tried early, then now and then.
+  // The reduced equations cost about five factorisations, a halving two: they are tried early, then now and
+  // then.
   const bool attempt = depth == 0 || depth == 2 || depth % 4 == 0;
   if (attempt) {
     std::optional<BranchPoint> point = polish_branch_point(segment, lo, hi, multiplicity, why);
@@ -142,7 +147,8 @@ void search(Segment& segment, const Sample& lo, const Sample& hi, int depth, std
       const double ds = segment.path_length(point->u, point->p[parameter] - lo.it.p[parameter]);
       const double part = ds / (hi.s - lo.s);
       const bool again = std::any_of(found.begin(), found.end(), [&](const Located& other) {
-        return other.branch_point && (other.branch_point->x - point->x).norm() <= 1e-8 * (1.0 + point->x.norm()) &&
+        return other.branch_point &&
+               (other.branch_point->x - point->x).norm() <= 1e-8 * (1.0 + point->x.norm()) &&
                std::abs(other.branch_point->p[parameter] - point->p[parameter]) <= 100.0 * tolerance(segment);
       });
       // A little slack only: of two points close together each bracket must yield its own.

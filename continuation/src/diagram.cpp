@@ -124,7 +124,8 @@ class Tracer {
   SpecialPoint* find(const Point& point, const Vector& fingerprint, int branch) {
     for (SpecialPoint& known : diagram_.specials) {
       if (known.branch == branch || known.point.type != point.type) continue;
-      if (same_fingerprint(known.point.p, point.p, 1e-6) && same_fingerprint(known.fingerprint, fingerprint, 1e-5))
+      if (same_fingerprint(known.point.p, point.p, 1e-6) &&
+          same_fingerprint(known.fingerprint, fingerprint, 1e-5))
         return &known;
     }
     return nullptr;
@@ -132,9 +133,14 @@ class Tracer {
 
   void relabel(Point& point) {
     switch (point.type) {
-      case PointType::fold: point.label = "F" + std::to_string(++folds_); break;
-      case PointType::branch_point: point.label = "B" + std::to_string(++branch_points_); break;
-      default: point.label = "E" + std::to_string(++events_);
+      case PointType::fold:
+        point.label = "F" + std::to_string(++folds_);
+        break;
+      case PointType::branch_point:
+        point.label = "B" + std::to_string(++branch_points_);
+        break;
+      default:
+        point.label = "E" + std::to_string(++events_);
     }
   }
 
@@ -150,8 +156,9 @@ class Tracer {
 
 }  // namespace
 
-Diagram trace_diagram(std::shared_ptr<Problem> problem, const Vector& x, const Vector& p, const Options& options,
-                      const DiagramOptions& diagram_options, DiagramObserver& observer) {
+Diagram trace_diagram(std::shared_ptr<Problem> problem, const Vector& x, const Vector& p,
+                      const Options& options, const DiagramOptions& diagram_options,
+                      DiagramObserver& observer) {
   return Tracer(options, diagram_options, observer).trace(std::move(problem), x, p);
 }
 

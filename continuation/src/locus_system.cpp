@@ -11,7 +11,8 @@ namespace {
 constexpr double kDifference = 1e-5;  // y and its derivatives come from solves to roundoff
 
 const EventFunction* find(const std::vector<EventFunction>& events, const std::string& name) {
-  const auto it = std::find_if(events.begin(), events.end(), [&](const auto& event) { return event.name == name; });
+  const auto it =
+      std::find_if(events.begin(), events.end(), [&](const auto& event) { return event.name == name; });
   return it == events.end() ? nullptr : &*it;
 }
 
@@ -19,16 +20,19 @@ const EventFunction* find(const std::vector<EventFunction>& events, const std::s
 
 const char* name(LocusKind kind) {
   switch (kind) {
-    case LocusKind::fold: return "fold";
-    case LocusKind::branch_point: return "branch_point";
-    case LocusKind::event: return "event";
+    case LocusKind::fold:
+      return "fold";
+    case LocusKind::branch_point:
+      return "branch_point";
+    case LocusKind::event:
+      return "event";
   }
   return "?";
 }
 
-LocusSystem::LocusSystem(std::shared_ptr<Problem> problem, const Options& options, LocusKind kind, int multiplicity,
-                         std::string event, Eigen::Index first, Eigen::Index second, const Vector& x,
-                         const Vector& p, std::optional<NullVectors> null)
+LocusSystem::LocusSystem(std::shared_ptr<Problem> problem, const Options& options, LocusKind kind,
+                         int multiplicity, std::string event, Eigen::Index first, Eigen::Index second,
+                         const Vector& x, const Vector& p, std::optional<NullVectors> null)
     : problem_(std::move(problem)),
       options_(options),
       kind_(kind),
@@ -37,8 +41,8 @@ LocusSystem::LocusSystem(std::shared_ptr<Problem> problem, const Options& option
       first_(first),
       second_(second),
       p_(p),
-      reduced_(*problem_, options_, x, p, null ? std::move(*null) : null_vectors(*problem_, x, p, multiplicity_),
-               {first}) {
+      reduced_(*problem_, options_, x, p,
+               null ? std::move(*null) : null_vectors(*problem_, x, p, multiplicity_), {first}) {
   if (kind_ == LocusKind::event && !find(problem_->events(x, p), event_))
     throw std::invalid_argument("locus: the problem has no event \"" + event_ + "\"");
   if (size() == 3) return;
@@ -78,7 +82,9 @@ std::optional<Vector> LocusSystem::residual(const Vector& z) {
   Vector r(size() - 1);
   try {
     switch (kind_) {
-      case LocusKind::fold: r << value->y()[0], value->y_alpha(0, 0); break;
+      case LocusKind::fold:
+        r << value->y()[0], value->y_alpha(0, 0);
+        break;
       case LocusKind::branch_point:
         if (size() == 2) {
           r[0] = weight_.cwiseProduct(value->y_alpha).sum();
@@ -110,8 +116,8 @@ double LocusSystem::alignment() const {
   const Matrix& border = reduced_.null().right;
   double least = 1.0;
   for (Eigen::Index i = 0; i < border.cols(); ++i)
-    least = std::min(least, std::abs(x_alpha.col(i).dot(border.col(i))) /
-                                (x_alpha.col(i).norm() * border.col(i).norm()));
+    least = std::min(
+        least, std::abs(x_alpha.col(i).dot(border.col(i))) / (x_alpha.col(i).norm() * border.col(i).norm()));
   return least;
 }
 

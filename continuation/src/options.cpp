@@ -34,7 +34,8 @@ void Options::validate() const {
   require(max_newton >= 1, "max_newton >= 1", max_newton);
   require(target_newton >= 1, "target_newton >= 1", target_newton);
   require(target_newton <= max_newton, "target_newton <= max_newton", target_newton);
-  require(target_contraction > 0.0 && target_contraction < 1.0, "0 < target_contraction < 1", target_contraction);
+  require(target_contraction > 0.0 && target_contraction < 1.0, "0 < target_contraction < 1",
+          target_contraction);
   require(location_tolerance > 0.0, "location_tolerance > 0", location_tolerance);
   require(event_zero >= 0.0, "event_zero >= 0", event_zero);
 }

@@ -48,7 +48,9 @@ std::vector<Vector> Problem::kernel_directions(const Vector&, const Vector&, con
 
 std::vector<EventFunction> Problem::events(const Vector&, const Vector&) { return {}; }
 
-std::optional<Transition> Problem::transition(std::size_t, const Vector&, const Vector&) { return std::nullopt; }
+std::optional<Transition> Problem::transition(std::size_t, const Vector&, const Vector&) {
+  return std::nullopt;
+}
 
 std::optional<Vector> Problem::adapt(const Vector&, const Vector&) { return std::nullopt; }
 

@@ -32,7 +32,8 @@ NullVectors null_vectors(Problem& problem, const Vector& x, const Vector& p, Eig
   // Quasi-random starting borders: nothing smooth or symmetric is orthogonal to them.
   for (Eigen::Index j = 0; j < k; ++j) {
     for (Eigen::Index i = 0; i < n; ++i) {
-      const double angle = 1.0 + 2.399963229728653 * static_cast<double>(i) + 1.7 * static_cast<double>(j * (i + 1));
+      const double angle =
+          1.0 + 2.399963229728653 * static_cast<double>(i) + 1.7 * static_cast<double>(j * (i + 1));
       null.right(i, j) = std::cos(angle);
       null.left(i, j) = std::cos(angle + 0.3);
     }
@@ -47,7 +48,8 @@ NullVectors null_vectors(Problem& problem, const Vector& x, const Vector& p, Eig
       null.right.col(j) = problem.solve(zero, unit).head(n);
       null.left.col(j) = problem.solve_transposed(zero, unit).head(n);
     }
-    if (!null.right.allFinite() || !null.left.allFinite()) throw std::runtime_error("a null vector is not finite");
+    if (!null.right.allFinite() || !null.left.allFinite())
+      throw std::runtime_error("a null vector is not finite");
     null.right = orthonormal(null.right);
     null.left = orthonormal(null.left);
   }
@@ -121,7 +123,8 @@ void Reduced::differentiate(Value& value, bool factored) {
   value.y_parameter.resize(k, m);
   value.x_parameter.resize(n, m);
   for (Eigen::Index j = 0; j < m; ++j) {
-    const Vector f = problem_.parameter_derivative(value.it.x, value.it.p, parameters_[static_cast<std::size_t>(j)]);
+    const Vector f =
+        problem_.parameter_derivative(value.it.x, value.it.p, parameters_[static_cast<std::size_t>(j)]);
     const Vector derivative = problem_.solve(-f, Vector::Zero(k));
     value.x_parameter.col(j) = derivative.head(n);
     value.y_parameter.col(j) = derivative.tail(k);

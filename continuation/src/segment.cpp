@@ -6,7 +6,8 @@
 
 namespace continuation {
 
-Segment::Segment(std::shared_ptr<Problem> problem, const Options& options, Vector x, Vector p, Tangent tangent)
+Segment::Segment(std::shared_ptr<Problem> problem, const Options& options, Vector x, Vector p,
+                 Tangent tangent)
     : problem_(std::move(problem)), options_(options), tangent_(std::move(tangent)) {
   keller_.parameter = options_.parameter;
   keller_.scale = options_.parameter_scale;

@@ -32,7 +32,8 @@ Tangent bordered_tangent(Problem& problem, const Vector& x, const Vector& p, con
 
 }  // namespace
 
-Tangent first_tangent(Problem& problem, const Vector& x, const Vector& p, const Options& options, int direction) {
+Tangent first_tangent(Problem& problem, const Vector& x, const Vector& p, const Options& options,
+                      int direction) {
   const Eigen::Index n = problem.size();
   Tangent tangent;
   try {

@@ -40,6 +40,7 @@ void Walker::adapt() {
     if (!sample) return lose("after adapting the discretisation: " + segment.failure());
     segment.add_events(*sample);
     settle(segment, *sample);
+    mesh_changed_ = true;
     previous_tangent_ = tangent_;
   } catch (const std::domain_error& error) {
     lose(std::string("adapting the discretisation: ") + error.what());
@@ -53,7 +54,8 @@ void Walker::pass(Point event, std::size_t which, const std::string& name, int d
     queue_.push_back(std::move(event));
     pending_end_ = End{kind, reason};
   };
-  if (events_in_place_ > 5) return finish(End::Kind::lost, "event " + name + ": events repeat without progress");
+  if (events_in_place_ > 5)
+    return finish(End::Kind::lost, "event " + name + ": events repeat without progress");
   std::optional<Transition> transition;
   std::string failure;
   try {
@@ -67,7 +69,7 @@ void Walker::pass(Point event, std::size_t which, const std::string& name, int d
   event.before = transition->before;
   event.after = transition->after;
   if (!transition->problem) return finish(End::Kind::event, "event " + name + " ends the branch");
-  if (!enter(transition->problem, transition->state, p_, direction, failure))
+  if (!enter(transition->problem, transition->state, p_, direction, name, failure))
     return finish(End::Kind::lost, "event " + name + ": " + failure);
   event.index_after = index_;
   event.next_problem = problem_->clone();
@@ -78,7 +80,7 @@ void Walker::pass(Point event, std::size_t which, const std::string& name, int d
 
 // Corrects the new problem's state at p, or slightly beyond, and finds the direction in which it is valid.
 bool Walker::enter(std::shared_ptr<Problem> problem, const Vector& guess, const Vector& p, int direction,
-                   std::string& failure) {
+                   const std::string& passed, std::string& failure) {
   const double step = step_length_.current() * options_.parameter_scale;
   std::vector<double> offsets{0.0};
   for (const int sign : {direction, -direction}) {
@@ -102,7 +104,7 @@ bool Walker::enter(std::shared_ptr<Problem> problem, const Vector& guess, const 
     try {
       for (const int sign : {direction, -direction}) {
         Tangent tangent = first_tangent(*problem, it.x, it.p, options_, sign);
-        if (!valid_direction(problem, it.x, it.p, tangent)) {
+        if (!valid_direction(problem, it.x, it.p, tangent, passed)) {
           failure = "the new problem is not valid in either direction";
           continue;
         }
@@ -117,6 +119,7 @@ bool Walker::enter(std::shared_ptr<Problem> problem, const Vector& guess, const 
         signs_.clear();
         settle(segment, *sample);
         signs_.clear();
+        mesh_changed_ = true;
         previous_tangent_ = tangent_;
         // A short first step separates the zero just passed from the next event.
         step_length_.reset(0.1 * step_length_.current());
@@ -132,20 +135,27 @@ bool Walker::enter(std::shared_ptr<Problem> problem, const Vector& guess, const 
 }
 
 bool Walker::valid_direction(const std::shared_ptr<Problem>& problem, const Vector& x, const Vector& p,
-                             const Tangent& tangent) {
+                             const Tangent& tangent, const std::string& passed) {
+  // Of mirror images that vanish together one is passed now, the others, negative from here on, in the next
+  // steps.
+  const auto simultaneous = std::count_if(events_.begin(), events_.end(), [&](const EventFunction& event) {
+    return event.name != passed && std::abs(event.value) <= 1e4 * options_.event_zero;
+  });
   // A short step may still be within roundoff of the event, a long one beyond the next.
   for (const double part : {0.1, 0.01, 1e-3, 1e-4, 1e-5}) {
     Segment segment(problem, options_, x, p, tangent);
     Sample* sample = segment.at(part * step_length_.current(), false);
     if (!sample) continue;
     segment.add_events(*sample);
-    const bool valid = std::all_of(sample->events.begin(), sample->events.end(), [&](const EventFunction& event) {
-      if (event.value >= -options_.event_zero) return true;
-      const auto before = std::find_if(events_.begin(), events_.end(),
-                                       [&](const EventFunction& old) { return old.name == event.name; });
-      // Negative already before the event, so not the event's doing.
-      return before != events_.end() && before->value < -1e3 * options_.event_zero;
-    });
+    const auto negative =
+        std::count_if(sample->events.begin(), sample->events.end(), [&](const EventFunction& event) {
+          if (event.value >= -options_.event_zero) return false;
+          const auto before = std::find_if(events_.begin(), events_.end(),
+                                           [&](const EventFunction& old) { return old.name == event.name; });
+          // Negative already before the event, so not the event's doing.
+          return before == events_.end() || before->value >= -1e3 * options_.event_zero;
+        });
+    const bool valid = negative <= simultaneous;
     if (valid) return true;
   }
   return false;

@@ -92,7 +92,9 @@ class AlgebraicProblem : public Problem {
     return directions_of ? directions_of(kernel) : Problem::kernel_directions(x, p, kernel);
   }
 
-  Vector fingerprint(const Vector& x, const Vector& p) override { return fingerprint_of ? fingerprint_of(x, p) : x; }
+  Vector fingerprint(const Vector& x, const Vector& p) override {
+    return fingerprint_of ? fingerprint_of(x, p) : x;
+  }
 
   std::shared_ptr<Problem> clone() const override { return std::make_shared<AlgebraicProblem>(*this); }
 

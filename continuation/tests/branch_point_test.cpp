@@ -46,7 +46,8 @@ BOOST_AUTO_TEST_CASE(pitchfork_on_the_trivial_branch) {
 }
 
 BOOST_AUTO_TEST_CASE(pitchfork_from_its_side_branch) {
-  // Walking the parabola p = x² through the pitchfork: a branch point, not a fold, although dp/ds changes sign.
+  // Walking the parabola p = x² through the pitchfork: a branch point, not a fold, although dp/ds changes
+  // sign.
   auto problem = scalar([](double x, const Vector& p) { return -p[0] * x + x * x * x; });
   Options options = between(-1.0, 1.0);
   options.direction = -1;
@@ -62,7 +63,8 @@ BOOST_AUTO_TEST_CASE(pitchfork_from_its_side_branch) {
 }
 
 BOOST_AUTO_TEST_CASE(imperfect_pitchfork_has_folds_only) {
-  // p x - x³ + ε = 0: the branch from the left does not bifurcate, the detached one folds at p = 3 (ε/2)^(2/3).
+  // p x - x³ + ε = 0: the branch from the left does not bifurcate, the detached one folds at p = 3
+  // (ε/2)^(2/3).
   const double epsilon = 1e-3;
   const auto make = [&] {
     return scalar([epsilon](double x, const Vector& p) { return -p[0] * x + x * x * x - epsilon; });
@@ -156,7 +158,8 @@ BOOST_AUTO_TEST_CASE(fold_and_branch_point_in_one_step) {
 }
 
 BOOST_AUTO_TEST_CASE(euler_strut_buckles_at_the_discrete_loads) {
-  // θ'' + λ sin θ = 0, θ'(0) = θ'(1) = 0, θ antisymmetric part via pinned ends θ(0) = -θ(1) is avoided: θ(0) = θ(1) = 0.
+  // θ'' + λ sin θ = 0, θ'(0) = θ'(1) = 0, θ antisymmetric part via pinned ends θ(0) = -θ(1) is avoided: θ(0)
+  // = θ(1) = 0.
   const int n = 30;
   const double h = 1.0 / (n + 1);
   auto problem = std::make_shared<AlgebraicProblem>(
@@ -189,7 +192,8 @@ BOOST_AUTO_TEST_CASE(euler_strut_buckles_at_the_discrete_loads) {
     BOOST_TEST(std::abs(point.p[0] - 4.0 * s * s / (h * h)) < 1e-8);
     BOOST_TEST(point.index == k - 1);
     // The kernel is sin(k π s).
-    const Vector mode = Vector::LinSpaced(n, h, 1.0 - h).unaryExpr([k](double t) { return std::sin(k * M_PI * t); });
+    const Vector mode =
+        Vector::LinSpaced(n, h, 1.0 - h).unaryExpr([k](double t) { return std::sin(k * M_PI * t); });
     const Vector kernel = point.branch_point->null.right.col(0);
     BOOST_TEST(std::abs(std::abs(kernel.normalized().dot(mode.normalized())) - 1.0) < 1e-10);
   }

@@ -9,8 +9,8 @@ namespace {
 using namespace continuation;
 using namespace continuation::testing;
 
-// Spring against a stop: free x = p while the gap 1 - x is positive, then x = 1 held by a force f = p - 1 >= 0.
-// The free state has one unknown, the touching one two (x, f).
+// Spring against a stop: free x = p while the gap 1 - x is positive, then x = 1 held by a force f = p - 1 >=
+// 0. The free state has one unknown, the touching one two (x, f).
 std::shared_ptr<AlgebraicProblem> touching();
 
 std::shared_ptr<AlgebraicProblem> free_spring() {
@@ -18,7 +18,8 @@ std::shared_ptr<AlgebraicProblem> free_spring() {
   problem->events_of = [](const Vector& x, const Vector& p) {
     return std::vector<EventFunction>{{"far", 10.0 - p[0]}, {"gap", 1.0 - x[0]}};
   };
-  problem->transition_of = [](std::size_t which, const Vector& x, const Vector&) -> std::optional<Transition> {
+  problem->transition_of = [](std::size_t which, const Vector& x,
+                              const Vector&) -> std::optional<Transition> {
     if (which != 1) return std::nullopt;
     return Transition{touching(), vector({x[0], 0.0}), "free", "touch"};
   };
@@ -29,7 +30,9 @@ std::shared_ptr<AlgebraicProblem> touching() {
   auto problem = std::make_shared<AlgebraicProblem>(2, [](const Vector& x, const Vector& p) {
     return vector({x[0] + x[1] - std::sin(p[0]) * 1.5, x[0] - 1.0});
   });
-  problem->events_of = [](const Vector& x, const Vector&) { return std::vector<EventFunction>{{"force", x[1]}}; };
+  problem->events_of = [](const Vector& x, const Vector&) {
+    return std::vector<EventFunction>{{"force", x[1]}};
+  };
   problem->transition_of = [](std::size_t, const Vector& x, const Vector&) -> std::optional<Transition> {
     return Transition{free_spring(), vector({x[0]}), "touch", "free"};
   };
@@ -67,7 +70,8 @@ BOOST_AUTO_TEST_CASE(branch_goes_through_events_with_a_change_of_size) {
 BOOST_AUTO_TEST_CASE(several_events_in_one_step_come_in_order) {
   auto problem = scalar([](double x, const Vector& p) { return x - p[0]; });
   problem->events_of = [](const Vector& x, const Vector&) {
-    return std::vector<EventFunction>{{"late", 0.5 - x[0]}, {"early", std::cos(20.0 * x[0]) + 0.2 - 10.0 * x[0]}};
+    return std::vector<EventFunction>{{"late", 0.5 - x[0]},
+                                      {"early", std::cos(20.0 * x[0]) + 0.2 - 10.0 * x[0]}};
   };
   std::vector<std::size_t> seen;
   problem->transition_of = [&](std::size_t which, const Vector&, const Vector&) -> std::optional<Transition> {
@@ -148,7 +152,8 @@ BOOST_AUTO_TEST_CASE(event_at_the_edge_of_the_domain) {
   };
   first->transition_of = [](std::size_t which, const Vector& x, const Vector&) -> std::optional<Transition> {
     if (which != 1) return std::nullopt;
-    return Transition{scalar([](double y, const Vector& p) { return y - 0.7 - 2.0 * (p[0] - 0.7); }), x, "a", "b"};
+    return Transition{scalar([](double y, const Vector& p) { return y - 0.7 - 2.0 * (p[0] - 0.7); }), x, "a",
+                      "b"};
   };
   Options options;
   options.target = 1.0;
@@ -160,6 +165,42 @@ BOOST_AUTO_TEST_CASE(event_at_the_edge_of_the_domain) {
   BOOST_TEST(!events[0].note.empty());
   BOOST_TEST(points.back().p[0] == 1.0);
   BOOST_TEST(std::abs(points.back().x[0] - 1.3) < 1e-10);
+}
+
+BOOST_AUTO_TEST_CASE(mirror_images_vanish_together) {
+  // Two gaps close at the same place; each transition closes one of them.
+  std::function<std::shared_ptr<AlgebraicProblem>(bool, bool)> make = [&make](bool left, bool right) {
+    const Eigen::Index n = 1 + left + right;
+    auto problem = std::make_shared<AlgebraicProblem>(n, [n](const Vector& x, const Vector& p) {
+      Vector f = Vector::Zero(n);  // x held at 1 by each closed gap in turn, forces share p - 1
+      f[0] = n == 1 ? x[0] - p[0] : x[0] - 1.0;
+      for (Eigen::Index i = 1; i < n; ++i) f[i] = x[i] - (p[0] - 1.0) / static_cast<double>(n - 1);
+      return f;
+    });
+    problem->events_of = [left, right](const Vector& x, const Vector& p) {
+      std::vector<EventFunction> events;
+      Eigen::Index k = 1;
+      events.push_back(left ? EventFunction{"force left", x[k++]} : EventFunction{"gap left", 1.0 - p[0]});
+      events.push_back(right ? EventFunction{"force right", x[k++]} : EventFunction{"gap right", 1.0 - p[0]});
+      return events;
+    };
+    problem->transition_of = [left, right, &make](std::size_t which, const Vector& x, const Vector&) {
+      Vector guess = Vector::Zero(x.size() + 1);
+      guess[0] = 1.0;
+      return std::optional(Transition{make(left || which == 0, right || which == 1), guess, "", ""});
+    };
+    return problem;
+  };
+  Options options;
+  options.target = 2.0;
+  Walker walker(make(false, false), vector({0.0}), vector({0.0}), options);
+  const auto points = walk(walker);
+  const auto events = of_type(points, PointType::event);
+  BOOST_REQUIRE_EQUAL(events.size(), 2u);
+  for (const Point& event : events) BOOST_TEST(std::abs(event.p[0] - 1.0) < 2e-10);
+  BOOST_TEST(events[0].event != events[1].event);
+  BOOST_TEST(points.back().p[0] == 2.0);
+  BOOST_TEST(points.back().x.size() == 3);
 }
 
 BOOST_AUTO_TEST_CASE(ping_pong_is_not_endless) {

@@ -35,8 +35,8 @@ BOOST_AUTO_TEST_CASE(fold_locus_goes_through_the_cusp) {
   auto problem = std::make_shared<AlgebraicProblem>(2, [](const Vector& x, const Vector& p) {
     return vector({x[0] * x[0] * x[0] - p[1] * x[0] + p[0] + x[1], x[1] - 0.5 * x[1] * x[0]});
   });
-  const Point fold = special(problem, vector({-1.8, 0.0}), vector({1.8 * 1.8 * 1.8 - 1.8, 1.0}), PointType::fold,
-                             -1, -6.0, 6.0);
+  const Point fold = special(problem, vector({-1.8, 0.0}), vector({1.8 * 1.8 * 1.8 - 1.8, 1.0}),
+                             PointType::fold, -1, -6.0, 6.0);
   LocusOptions options;
   options.options.direction = -1;
   options.options.lower = -1.0;
@@ -69,7 +69,8 @@ BOOST_AUTO_TEST_CASE(pitchfork_locus) {
   auto problem = std::make_shared<AlgebraicProblem>(2, [](const Vector& x, const Vector& p) {
     return vector({-(p[0] - p[1] * p[1]) * x[0] + x[0] * x[0] * x[0], x[1] - std::sin(p[0])});
   });
-  const Point point = special(problem, vector({0.0, std::sin(-1.0)}), vector({-1.0, 0.5}), PointType::branch_point);
+  const Point point =
+      special(problem, vector({0.0, std::sin(-1.0)}), vector({-1.0, 0.5}), PointType::branch_point);
   LocusOptions options;
   options.options.direction = -1;
   options.second_lower = -1.2;

@@ -63,7 +63,8 @@ BOOST_AUTO_TEST_CASE(options_name_the_violated_bound) {
              "continuation options: step <= step_max is violated, the value is 2");
   BOOST_TEST(message([](Options& o) { o.direction = 0; }).find("direction = 1 or -1") != std::string::npos);
   BOOST_TEST(message([](Options& o) { o.step_min = 0.0; }).find("step_min > 0") != std::string::npos);
-  BOOST_TEST(message([](Options& o) { o.newton_tolerance = NAN; }).find("newton_tolerance") != std::string::npos);
+  BOOST_TEST(message([](Options& o) { o.newton_tolerance = NAN; }).find("newton_tolerance") !=
+             std::string::npos);
 }
 
 Borders fixed(double value) {

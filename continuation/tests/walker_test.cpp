@@ -27,7 +27,8 @@ BOOST_AUTO_TEST_CASE(regular_branch_ends_exactly_at_the_target) {
   BOOST_TEST(points.back().p[0] == 2.0);
   BOOST_TEST((walker.end().kind == End::Kind::target));
   for (const Point& point : points) BOOST_TEST(std::abs(point.x[0] - std::sin(point.p[0])) < 1e-10);
-  for (std::size_t i = 1; i < points.size(); ++i) BOOST_TEST(points[i].path_length > points[i - 1].path_length);
+  for (std::size_t i = 1; i < points.size(); ++i)
+    BOOST_TEST(points[i].path_length > points[i - 1].path_length);
 }
 
 BOOST_AUTO_TEST_CASE(path_length_is_the_arc_length_to_second_order) {
@@ -253,11 +254,11 @@ BOOST_AUTO_TEST_CASE(max_points_and_stop) {
 BOOST_AUTO_TEST_CASE(adaptation_changes_the_size) {
   // n copies of x = p² - p averaged; adapt alternates between n = 1, 2, 3.
   auto problem = std::make_shared<AlgebraicProblem>(1, AlgebraicProblem::Residual{});
-  *problem = AlgebraicProblem(1, [](const Vector& x, const Vector& p) {
-    return Vector((x.array().cube() - p[0] + 1.0).matrix());
-  });
+  *problem = AlgebraicProblem(
+      1, [](const Vector& x, const Vector& p) { return Vector((x.array().cube() - p[0] + 1.0).matrix()); });
   int calls = 0;
-  problem->adapt_of = [&calls](AlgebraicProblem& self, const Vector& x, const Vector&) -> std::optional<Vector> {
+  problem->adapt_of = [&calls](AlgebraicProblem& self, const Vector& x,
+                               const Vector&) -> std::optional<Vector> {
     ++calls;
     const Eigen::Index n = 1 + calls % 3;
     self.set_size(n);

@@ -12,8 +12,8 @@ struct Bracket {
   bool converged = false;     ///< hi − lo reached the tolerance
 };
 
-/// Zero of a continuous f with f(lo) f(hi) <= 0 by Brent's method, which ends with both ends of the bracket within
-/// 2·tolerance of each other. f may decline (nullopt); the bracket reached so far is then returned.
+/// Zero of a continuous f with f(lo) f(hi) <= 0 by Brent's method, which ends with both ends of the bracket
+/// within 2·tolerance of each other. f may decline (nullopt); the bracket reached so far is then returned.
 Bracket find_zero(double lo, double f_lo, double hi, double f_hi, double tolerance,
                   const std::function<std::optional<double>(double)>& f);
 

@@ -15,12 +15,12 @@ namespace continuation {
 /// A special point located on a segment.
 struct Located {
   PointType type = PointType::fold;
-  double s = 0.0;                           ///< path length on the segment
-  Sample sample;                            ///< the solution there
-  double lo = 0.0, hi = 0.0;                ///< bracket in path length
-  double precision = 0.0;                   ///< in the varied parameter
+  double s = 0.0;             ///< path length on the segment
+  Sample sample;              ///< the solution there
+  double lo = 0.0, hi = 0.0;  ///< bracket in path length
+  double precision = 0.0;     ///< in the varied parameter
   int index = -1, index_after = -1;
-  std::size_t which = 0;                    ///< event: its place in events()
+  std::size_t which = 0;  ///< event: its place in events()
   std::string event;
   int multiplicity = 0;
   std::optional<BranchPoint> branch_point;  ///< where the reduced equations could be solved
@@ -33,13 +33,14 @@ Located locate_fold(Segment& segment, const Sample& lo, const Sample& hi);
 /// Signs of the events along a branch, by name. An event without an entry counts as positive.
 using EventSigns = std::map<std::string, int>;
 
-/// The first zero of any event between the segment's base and the sample `hi` (both with events). An event whose value at
-/// the base has already the wrong sign (within roundoff of zero) is located at the base.
+/// The first zero of any event between the segment's base and the sample `hi` (both with events). An event
+/// whose value at the base has already the wrong sign (within roundoff of zero) is located at the base.
 /// @return nullopt when no event changes sign. `note` is not empty if the bracket did not converge.
 std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, const EventSigns& signs);
 
-/// All branch points between two completed samples: the interval is halved on the change of the index (corrected for
-/// folds, det [J F_p; t] where the index is unknown) until the reduced equations find the point in it.
+/// All branch points between two completed samples: the interval is halved on the change of the index
+/// (corrected for folds, det [J F_p; t] where the index is unknown) until the reduced equations find the
+/// point in it.
 std::vector<Located> locate_branch_points(Segment& segment, const Sample& lo, const Sample& hi);
 
 }  // namespace continuation

@@ -12,8 +12,8 @@
 
 namespace continuation {
 
-/// How a locus is walked. `options` gives λ (parameter), its bounds (lower, upper), scale, and all step, tolerance and
-/// max_points settings; its target is ignored. direction is the initial sign of dμ.
+/// How a locus is walked. `options` gives λ (parameter), its bounds (lower, upper), scale, and all step,
+/// tolerance and max_points settings; its target is ignored. direction is the initial sign of dμ.
 struct LocusOptions {
   Options options;
   Eigen::Index second = 1;  ///< index of μ in p
@@ -43,10 +43,11 @@ struct LocusPoint {
 
 /// The curve of a special point in two parameters.
 ///
-/// Keller's pseudo-arclength method on LocusSystem. Degenerate points (cusps of fold loci, points where a branch point's
-/// two branches become tangent) are regular points of the curve and are located and yielded. The walk ends, with a
-/// reason, where a parameter leaves its bounds (hit exactly), where another event happens beyond which the special point
-/// is not found, where a crossing comes apart, at the start (closed), or where steps fail down to step_min (lost).
+/// Keller's pseudo-arclength method on LocusSystem. Degenerate points (cusps of fold loci, points where a
+/// branch point's two branches become tangent) are regular points of the curve and are located and yielded.
+/// The walk ends, with a reason, where a parameter leaves its bounds (hit exactly), where another event
+/// happens beyond which the special point is not found, where a crossing comes apart, at the start (closed),
+/// or where steps fail down to step_min (lost).
 class LocusWalker {
  public:
   /// From a located special point of a Walker (fold, branch_point, event), corrected with μ fixed.
@@ -68,9 +69,10 @@ class LocusWalker {
   void start();
   void advance();
   bool advance_once(std::string& failure);
-  std::optional<Solution> solve(const Vector& row, double value, Vector guess, Matrix jacobian, std::string& failure);
-  bool rebase(std::shared_ptr<Problem> problem, const Vector& x, const Vector& p, std::optional<NullVectors> null,
-              const Vector& orientation, std::string& failure);
+  std::optional<Solution> solve(const Vector& row, double value, Vector guess, Matrix jacobian,
+                                std::string& failure);
+  bool rebase(std::shared_ptr<Problem> problem, const Vector& x, const Vector& p,
+              std::optional<NullVectors> null, const Vector& orientation, std::string& failure);
   bool settle(const Solution& solution, const Matrix& jacobian, LocusPoint& point, std::string& failure);
   void adapt();
   void pass(LocusPoint point, std::size_t which, const std::string& name);

@@ -16,7 +16,8 @@ const char* name(LocusKind kind);
 /// F(x, λ, μ) + ψ y = 0, φ*ᵀ u = α  (see Reduced):
 ///
 ///     fold           y = 0,   y_α = 0                  z = (λ, μ, α)
-///     branch point   y_λ = 0, y_α = 0                  z = (λ, μ, α)     (y = 0 follows where the crossing persists)
+///     branch point   y_λ = 0, y_α = 0                  z = (λ, μ, α)     (y = 0 follows where the crossing
+/// persists)
 ///     event          y = 0,   e(x, λ, μ) = 0           z = (λ, μ, α)
 ///     k-fold branch point   tr(Wᵀ y_α) = 0, α = 0      z = (λ, μ)        W = ∂y_α/∂λ at the base
 ///
@@ -25,7 +26,8 @@ class LocusSystem {
  public:
   /// @param first, second  indices of λ and μ
   /// @param event          name of the event function followed; for LocusKind::event only
-  /// @throws std::runtime_error if no null vectors can be found; std::invalid_argument if there is no such event
+  /// @throws std::runtime_error if no null vectors can be found; std::invalid_argument if there is no such
+  /// event
   LocusSystem(std::shared_ptr<Problem> problem, const Options& options, LocusKind kind, int multiplicity,
               std::string event, Eigen::Index first, Eigen::Index second, const Vector& x, const Vector& p,
               std::optional<NullVectors> null = std::nullopt);
@@ -36,7 +38,8 @@ class LocusSystem {
   /// z of the base: (λ, μ, 0).
   Vector base() const;
 
-  /// The size() − 1 residuals at z; nullopt where F cannot be solved, see failure(). Free at the last z again.
+  /// The size() − 1 residuals at z; nullopt where F cannot be solved, see failure(). Free at the last z
+  /// again.
   std::optional<Vector> residual(const Vector& z);
 
   /// Derivative of the residuals by differences, (size() − 1)×size(). `at_z`: the residual there.
@@ -48,7 +51,8 @@ class LocusSystem {
   /// Null vectors there, for the next base; right after `residual` only.
   NullVectors refreshed() { return reduced_.refreshed(*value_); }
 
-  /// Cosine of the angle between the null vector there and the border; the system wants a new base when it is small.
+  /// Cosine of the angle between the null vector there and the border; the system wants a new base when it
+  /// is small.
   double alignment() const;
 
   /// Distance in the plane of y's arguments by which a crossing has come apart, sqrt(|y| / |∂²y|); 0 but for

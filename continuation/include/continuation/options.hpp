@@ -5,7 +5,8 @@
 
 namespace continuation {
 
-/// How a branch is walked. Lengths are path lengths in the metric  |(dx, dp)|² = inner(dx, dx) + (dp/parameter_scale)².
+/// How a branch is walked. Lengths are path lengths in the metric  |(dx, dp)|² = inner(dx, dx) +
+/// (dp/parameter_scale)².
 struct Options {
   Eigen::Index parameter = 0;                                ///< which entry of p varies
   double target = std::numeric_limits<double>::quiet_NaN();  ///< stop value of p, hit exactly; NaN: none

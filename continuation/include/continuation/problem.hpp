@@ -15,23 +15,23 @@ class Problem;
 
 /// What follows an event: the problem that holds beyond it, and its state there.
 struct Transition {
-  std::shared_ptr<Problem> problem;   ///< null: the branch ends here (a reported end, not a failure)
-  Vector state;                       ///< a guess for the new problem, to be corrected by the caller
-  std::string before, after;          ///< descriptions of the two sides, e.g. contact topologies
+  std::shared_ptr<Problem> problem;  ///< null: the branch ends here (a reported end, not a failure)
+  Vector state;                      ///< a guess for the new problem, to be corrected by the caller
+  std::string before, after;         ///< descriptions of the two sides, e.g. contact topologies
 };
 
 /// A scalar that must keep its sign along a regular branch.
 struct EventFunction {
-  std::string name;                   ///< e.g. "pressure", "force touch 2"
+  std::string name;  ///< e.g. "pressure", "force touch 2"; unique within a problem
   double value = 0.0;
 };
 
 /// A smooth family of nonlinear equations F(x, p) = 0, with as many equations as degrees of freedom.
 ///
-/// `x` is a stored state of any length; increments `dx` have length `size()`, and `retract` applies one to the
-/// other, so that x may hold redundant coordinates (unit quaternions). For plain problems both are the same.
-/// `p` holds every continuation parameter. The library owns no linear algebra of the problem: it asks for bordered
-/// systems
+/// `x` is a stored state of any length; increments `dx` have length `size()`, and `retract` applies one to
+/// the other, so that x may hold redundant coordinates (unit quaternions). For plain problems both are the
+/// same. `p` holds every continuation parameter. The library owns no linear algebra of the problem: it asks
+/// for bordered systems
 ///
 ///     [ J   B ] [dx]   [f]
 ///     [ Cᵀ  D ] [dy] = [g],       J = ∂F/∂x (n×n),  B, C: n×k,  D: k×k,  k small (0 included),
@@ -48,7 +48,8 @@ class Problem {
   virtual Vector residual(const Vector& x, const Vector& p) = 0;
 
   /// Assembles and factors the bordered matrix at (x, p). @throws std::runtime_error if it is singular.
-  virtual void factor(const Vector& x, const Vector& p, const Matrix& B, const Matrix& C, const Matrix& D) = 0;
+  virtual void factor(const Vector& x, const Vector& p, const Matrix& B, const Matrix& C,
+                      const Matrix& D) = 0;
 
   /// Solves with the last factored matrix. f: n, g: k; returns the n + k unknowns stacked.
   virtual Vector solve(const Vector& f, const Vector& g) = 0;
@@ -56,8 +57,9 @@ class Problem {
   /// The same with the transposed matrix.
   virtual Vector solve_transposed(const Vector& f, const Vector& g) = 0;
 
-  /// Number of negative eigenvalues of the second variation at (x, p), an equilibrium; the last `factor` was made
-  /// there. Problems that are not gradients return the number of negative real eigenvalues of J, or -1 if unknown.
+  /// Number of negative eigenvalues of the second variation at (x, p), an equilibrium; the last `factor` was
+  /// made there. Problems that are not gradients return the number of negative real eigenvalues of J, or -1
+  /// if unknown.
   virtual int index(const Vector& x, const Vector& p) = 0;
 
   /// ∂F/∂p_k; shape n. The default is a central difference with step cbrt(eps)·max(1, |p_k|).
@@ -69,16 +71,17 @@ class Problem {
   /// Inner product of increments, the metric of path length. The default is the mean of products, (a·b)/n.
   virtual double inner(const Vector& a, const Vector& b) const;
 
-  /// Row vector of the functional inner(a, ·), so that dual(a)·b ≈ inner(a, b) and dual(a)·a = inner(a, a) exactly.
-  /// The default scales a; override it together with an `inner` whose weights differ much from entry to entry.
+  /// Row vector of the functional inner(a, ·), so that dual(a)·b ≈ inner(a, b) and dual(a)·a = inner(a, a)
+  /// exactly. The default scales a; override it together with an `inner` whose weights differ much from
+  /// entry to entry.
   virtual Vector dual(const Vector& a) const;
 
-  /// Sign of the determinant of the last factored matrix, borders included; 0 if unknown (the default). Used to
-  /// see branch points of problems whose index() is -1; it misses even multiplicities.
+  /// Sign of the determinant of the last factored matrix, borders included; 0 if unknown (the default). Used
+  /// to see branch points of problems whose index() is -1; it misses even multiplicities.
   virtual int determinant_sign();
 
-  /// Directions in the kernel of J along which arms may leave a multiple branch point; each is tried with both
-  /// signs. kernel: n×k, unit columns in `inner`. The default is the columns themselves.
+  /// Directions in the kernel of J along which arms may leave a multiple branch point; each is tried with
+  /// both signs. kernel: n×k, unit columns in `inner`. The default is the columns themselves.
   virtual std::vector<Vector> kernel_directions(const Vector& x, const Vector& p, const Matrix& kernel);
 
   /// Signed functions, positive where this problem's description is valid (contact forces, gaps, lengths).
@@ -87,11 +90,12 @@ class Problem {
   /// Called at a located zero of events()[which]; nullopt: no continuation is known (the branch is lost).
   virtual std::optional<Transition> transition(std::size_t which, const Vector& x, const Vector& p);
 
-  /// May change the discretisation after an accepted point; returns the new state when it did. size() may change.
+  /// May change the discretisation after an accepted point; returns the new state when it did. size() may
+  /// change.
   virtual std::optional<Vector> adapt(const Vector& x, const Vector& p);
 
-  /// Numbers that do not depend on discretisation, nor on which of two mirror images x is: two states with equal
-  /// fingerprints are the same solution (up to mirror image). The default is x itself.
+  /// Numbers that do not depend on discretisation, nor on which of two mirror images x is: two states with
+  /// equal fingerprints are the same solution (up to mirror image). The default is x itself.
   virtual Vector fingerprint(const Vector& x, const Vector& p);
 
   /// An independent copy (own factorisation, own discretisation).

@@ -14,8 +14,8 @@ struct NullVectors {
   Matrix left;   ///< Jᵀ ψ ≈ 0; n×k, orthonormal
 };
 
-/// Null vectors by iterating [J ψ; φᵀ 0][φ' ; g] = [0; 1] and its transpose, from fixed starting borders. Regular also
-/// where J is singular; converges like inverse iteration where it is not.
+/// Null vectors by iterating [J ψ; φᵀ 0][φ' ; g] = [0; 1] and its transpose, from fixed starting borders.
+/// Regular also where J is singular; converges like inverse iteration where it is not.
 /// @throws std::runtime_error if the bordered matrix is singular (the kernel has more than k dimensions)
 NullVectors null_vectors(Problem& problem, const Vector& x, const Vector& p, Eigen::Index k, int passes = 3);
 
@@ -23,17 +23,18 @@ NullVectors null_vectors(Problem& problem, const Vector& x, const Vector& p, Eig
 ///
 ///     F(x, p) + ψ y = 0,      φ*ᵀ u = α,      φ*ᵀ φ = 1,
 ///
-/// solved for x and y at given p, α (k entries each). It is regular at the singular point, and F(x, p) = 0 ⇔ y = 0.
-/// Every simple singularity is a statement about y:  fold y = y_α = 0;  branch point y = y_α = y_λ = 0.
+/// solved for x and y at given p, α (k entries each). It is regular at the singular point, and F(x, p) = 0 ⇔
+/// y = 0. Every simple singularity is a statement about y:  fold y = y_α = 0;  branch point y = y_α = y_λ =
+/// 0.
 class Reduced {
  public:
   struct Value {
-    Iterate it;           ///< x, u, p and y
-    Vector alpha;         ///< k
-    Matrix y_alpha;       ///< ∂y/∂α; k×k, the matrix whose singularity is J's
-    Matrix x_alpha;       ///< ∂x/∂α; n×k
-    Matrix y_parameter;   ///< ∂y/∂p_j, one column a parameter asked for
-    Matrix x_parameter;   ///< ∂x/∂p_j
+    Iterate it;          ///< x, u, p and y
+    Vector alpha;        ///< k
+    Matrix y_alpha;      ///< ∂y/∂α; k×k, the matrix whose singularity is J's
+    Matrix x_alpha;      ///< ∂x/∂α; n×k
+    Matrix y_parameter;  ///< ∂y/∂p_j, one column a parameter asked for
+    Matrix x_parameter;  ///< ∂x/∂p_j
     const Vector& y() const { return it.y; }
   };
 
@@ -45,7 +46,8 @@ class Reduced {
   /// @return nullopt where Newton's method fails, see failure()
   std::optional<Value> at(const Vector& p, const Vector& alpha);
 
-  /// Null vectors of J at the value, exact if y_α = 0 there; the last call of `at` must have returned `value`.
+  /// Null vectors of J at the value, exact if y_α = 0 there; the last call of `at` must have returned
+  /// `value`.
   NullVectors refreshed(const Value& value);
 
   const NullVectors& null() const { return null_; }

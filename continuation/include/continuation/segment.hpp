@@ -27,17 +27,20 @@ struct Sample {
 ///
 ///     F(x, p) = 0,      dual(t_x)·u + t_p Δp / scale² = s,
 ///
-/// with u the sum of the increments since the base (states are only ever changed through Problem::retract). Samples are
-/// kept: each new one starts from the secant through the two nearest, so that locating a point takes few corrections.
+/// with u the sum of the increments since the base (states are only ever changed through Problem::retract).
+/// Samples are kept: each new one starts from the secant through the two nearest, so that locating a point
+/// takes few corrections.
 class Segment {
  public:
   /// The options are copied. @param tangent  unit length in the metric
   Segment(std::shared_ptr<Problem> problem, const Options& options, Vector x, Vector p, Tangent tangent);
 
-  /// The solution at s; null (see failure()) if Newton's method fails. The pointer lives as long as the segment.
+  /// The solution at s; null (see failure()) if Newton's method fails. The pointer lives as long as the
+  /// segment.
   Sample* at(double s, bool complete);
 
-  /// The solution with the varied parameter fixed to exactly `value`, which lies between those of the two samples.
+  /// The solution with the varied parameter fixed to exactly `value`, which lies between those of the two
+  /// samples.
   Sample* at_parameter(double value, const Sample& lo, const Sample& hi, bool complete);
 
   /// Adds tangent, index and determinant: one factorisation, none if the corrector's last one was made there.
@@ -50,7 +53,9 @@ class Segment {
   Sample& base() { return samples_.front(); }
   const Tangent& tangent() const { return tangent_; }
   /// Path length along the base's tangent of an increment (u, dp).
-  double path_length(const Vector& u, double dp) const { return keller_.c.col(0).dot(u) + keller_.d(0, 0) * dp; }
+  double path_length(const Vector& u, double dp) const {
+    return keller_.c.col(0).dot(u) + keller_.d(0, 0) * dp;
+  }
   double parameter(const Sample& sample) const { return sample.it.p[options_.parameter]; }
   const std::string& failure() const { return failure_; }
   const std::shared_ptr<Problem>& problem() const { return problem_; }

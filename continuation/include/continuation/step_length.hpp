@@ -10,8 +10,9 @@ namespace continuation {
 ///
 ///     ds ← ds · clamp( min( √(θ*/θ), 2^((N* − N)/2) ), ½, 2 )
 ///
-/// limited to [step_min, step_max]; θ* = target_contraction, N* = target_newton. The first accepted step after a
-/// rejection does not grow, so that accepted and rejected steps do not alternate. A rejection halves ds.
+/// limited to [step_min, step_max]; θ* = target_contraction, N* = target_newton. The first accepted step
+/// after a rejection does not grow, so that accepted and rejected steps do not alternate. A rejection halves
+/// ds.
 class StepLength {
  public:
   explicit StepLength(const Options& options);

@@ -19,11 +19,12 @@ double inner(const Problem& problem, const Tangent& a, const Tangent& b, double 
 /// Scales to unit length. @throws std::runtime_error when the direction is zero or not finite.
 void normalise(const Problem& problem, Tangent& tangent, double scale);
 
-/// Unit tangent at (x, p) from [J F_p; r s][t] = [0; 1] with the border r = 0, s = 1, or, where J is singular, a
-/// fixed full border; dp has the sign `direction`. Factors the bordered matrix (leaving it with the tangent's own
-/// border is not promised).
+/// Unit tangent at (x, p) from [J F_p; r s][t] = [0; 1] with the border r = 0, s = 1, or, where J is
+/// singular, a fixed full border; dp has the sign `direction`. Factors the bordered matrix (leaving it with
+/// the tangent's own border is not promised).
 /// @throws std::runtime_error if no border makes the matrix regular.
-Tangent first_tangent(Problem& problem, const Vector& x, const Vector& p, const Options& options, int direction);
+Tangent first_tangent(Problem& problem, const Vector& x, const Vector& p, const Options& options,
+                      int direction);
 
 /// Unit tangent from the last factored matrix [J F_p; dual(previous)], oriented like the previous one.
 Tangent next_tangent(Problem& problem, double scale);

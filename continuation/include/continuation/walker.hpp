@@ -15,9 +15,10 @@ namespace continuation {
 
 /// Walks one branch by pseudo-arclength continuation, a point a call.
 ///
-/// A step predicts along the unit tangent, corrects with Keller's constraint, then looks between the two points for folds
-/// (dp/ds changes sign), events (an event function changes sign) and branch points (the index changes, folds accounted
-/// for), and yields what it found in the order of the branch. A failed step leaves the state untouched and halves ds.
+/// A step predicts along the unit tangent, corrects with Keller's constraint, then looks between the two
+/// points for folds (dp/ds changes sign), events (an event function changes sign) and branch points (the
+/// index changes, folds accounted for), and yields what it found in the order of the branch. A failed step
+/// leaves the state untouched and halves ds.
 ///
 /// ```
 /// Walker walker(problem, x, p, options);
@@ -26,7 +27,8 @@ namespace continuation {
 /// ```
 class Walker {
  public:
-  /// From a guess at p, corrected there with p fixed; leaves in the direction options.direction of the parameter.
+  /// From a guess at p, corrected there with p fixed; leaves in the direction options.direction of the
+  /// parameter.
   /// @throws std::invalid_argument for options out of bounds or a parameter that p does not have
   Walker(std::shared_ptr<Problem> problem, Vector x, Vector p, const Options& options);
 
@@ -63,9 +65,9 @@ class Walker {
   // walker_transition.cpp
   void pass(Point event, std::size_t which, const std::string& name, int direction);
   bool enter(std::shared_ptr<Problem> problem, const Vector& guess, const Vector& p, int direction,
-             std::string& failure);
+             const std::string& passed, std::string& failure);
   bool valid_direction(const std::shared_ptr<Problem>& problem, const Vector& x, const Vector& p,
-                       const Tangent& tangent);
+                       const Tangent& tangent, const std::string& passed);
 
   double& parameter(Vector& p) const { return p[options_.parameter]; }
   void lose(const std::string& reason) { end_ = End{End::Kind::lost, reason}; }
@@ -83,6 +85,7 @@ class Walker {
   int points_ = 0;
   int events_in_place_ = 0;  // consecutive events without progress
   bool started_ = false, has_tangent_ = false, adapt_pending_ = false;
+  bool mesh_changed_ = false;  // since remember_start: states no longer compare entry by entry
   int folds_ = 0, branch_points_ = 0, event_points_ = 0;
 
   Vector start_x_;  // to see a closed curve
