@@ -38,6 +38,7 @@ Chain::Chain(std::vector<std::unique_ptr<Joint>> joints, std::vector<double> fix
   }
   numbering_ = number(Purpose::equilibrium);
   dense_size_ = size_ = numbering_.size;
+  geometric_size_ = numbering_.geometric;
   for (const Link& link : links_) {
     interior_row_.push_back(size_);
     size_ += link.arc->interior_tangent();
@@ -66,6 +67,7 @@ Chain::Numbering Chain::number(Purpose purpose) const {
     n.arclength.push_back(kept ? n.size++ : -1);
     n.constraints += kept;
   }
+  n.geometric = n.size;
   for (const Link& link : links_) {
     n.force.push_back(link.pull == 0 ? n.size : -1);
     if (link.pull == 0) {
@@ -157,6 +159,18 @@ VectorXd Chain::residual(const VectorXd& x, const Loads& loads) const {
     if (numbering_.arclength[j] >= 0) f(numbering_.arclength[j]) = location(x, j).value;
   }
   return f;
+}
+
+VectorXd transfer_state(const Chain& from, const Chain& to, const VectorXd& x, const Loads& loads) {
+  VectorXd out = VectorXd::Zero(to.ambient_size());
+  const Eigen::Index dense = from.link_count() > 0 ? from.interior(x, 0) - x.data() : x.size();
+  out.head(dense) = x.head(dense);
+  for (int i = 0; i < from.link_count(); ++i) {
+    if (to.link(i).arc->interior_nodes() == 0) continue;
+    const VectorXd interior = from.link(i).arc->transfer(from.place(x, loads, i).point(), *to.link(i).arc);
+    Eigen::Map<VectorXd>(to.interior(out, i), interior.size()) = interior;
+  }
+  return out;
 }
 
 }  // namespace windlass::chain

@@ -108,6 +108,24 @@ Attachment MidGap::attach_odd(const double* w, const Loads& loads) const {
   return at;
 }
 
+Attachment MarkerGap::attach(Side, const double* w, const Loads&) const {
+  SmallVector x(2);
+  x << 0.0, w[0];
+  Attachment at = fixed(w[1], x, 2);
+  at.dx(1, 0) = 1.0;
+  at.dq(0, 1) = 1.0;
+  return at;
+}
+
+Attachment FarEnd::attach(Side, const double*, const Loads&) const {
+  Attachment at;
+  at.q = Coordinates::Zero(configuration_ == 3 ? 4 : configuration_);
+  at.dq = SmallMatrix(configuration_, 0);
+  at.x = SmallVector::Zero(forces_);
+  at.dx = SmallMatrix(forces_, 0);
+  return at;
+}
+
 Attachment MidTouch::attach(Side, const double*, const Loads&) const { return fixed(0.0, place(0.0)); }
 
 Attachment MidTouch::attach_odd(const double*, const Loads&) const {

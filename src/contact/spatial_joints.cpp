@@ -167,6 +167,30 @@ Attachment MidLine::attach_odd(const double* w, const Loads&) const {
   return at;
 }
 
+Attachment MarkerLine::attach(Side, const double* w, const Loads&) const {
+  Attachment at = sized(2, 2, 2, tangent());
+  at.q(0) = w[0];
+  if (twist_held_) at.q(1) = w[1];
+  at.dq.topLeftCorner(tangent(), tangent()).setIdentity();
+  return at;
+}
+
+Attachment MarkerGap::attach(Side, const double* w, const Loads&) const {
+  Attachment at = sized(4, 3, 3, tangent());
+  at.q = Eigen::Map<const Eigen::Vector4d>(w + 1);
+  at.dq.topRightCorner(tangent() - 1, tangent() - 1).setIdentity();
+  at.x(1) = w[0];
+  at.dx(1, 0) = 1.0;
+  return at;
+}
+
+void MarkerGap::retract(const double* w, const double* dw, double* out) const {
+  out[0] = w[0] + dw[0];
+  const Vector3d v(dw[1], dw[2], twist_held_ ? dw[3] : 0.0);
+  Eigen::Map<Eigen::Vector4d> turned(out + 1);
+  turned = rod::retract(Eigen::Map<const Eigen::Vector4d>(w + 1), v);
+}
+
 Attachment MidGap::attach(Side, const double* w, const Loads&) const {
   Attachment at = sized(4, 3, 3, 2);
   at.q = surface_frame(0.0, w[1], 0.0);
@@ -244,6 +268,48 @@ SmallVector StrutEnd::dead_load(const double*, const Loads& loads) const {
   // Potential of the thrust: −F·r_end with F = ∓thrust e_x.
   const double sign = arc_ == Side::left ? 1.0 : -1.0;
   return SmallVector::Constant(tangent(), sign * loads.thrust);
+}
+
+void Touch::adopt(const Place& place, double* w) const {
+  w[0] = place.angle;
+  w[1] = place.r(2);
+  Eigen::Map<Eigen::Vector4d>{w + 2} = place.q;
+}
+
+void Edge::adopt(const Place& place, double* w) const {
+  const Vector3d c = surface_coordinates(place.q, place.angle);
+  w[0] = place.angle;
+  w[1] = place.r(2);
+  w[2] = c(1);
+  w[3] = c(2);
+}
+
+void MidLine::adopt(const Place& place, double* w) const { w[0] = surface_coordinates(place.q, 0.0)(1); }
+
+void MarkerLine::adopt(const Place& place, double* w) const {
+  const Vector3d c = surface_coordinates(place.q, 0.0);
+  w[0] = c(1);
+  if (twist_held_) w[1] = c(2);
+}
+
+void MarkerGap::adopt(const Place& place, double* w) const {
+  w[0] = place.r(1);
+  Eigen::Map<Eigen::Vector4d>{w + 1} = place.q;
+}
+
+void MidGap::adopt(const Place& place, double* w) const {
+  w[0] = place.r(1);
+  w[1] = surface_coordinates(place.q, 0.0)(1);
+}
+
+void MidTouch::adopt(const Place& place, double* w) const { w[0] = surface_coordinates(place.q, 0.0)(1); }
+
+void End::adopt(const Place& place, double* w) const {
+  if (!clamped_) Eigen::Map<Eigen::Vector4d>{w} = place.q;
+}
+
+void StrutEnd::adopt(const Place& place, double* w) const {
+  if (under_thrust_) w[0] = place.r(0);
 }
 
 }  // namespace windlass::contact::spatial

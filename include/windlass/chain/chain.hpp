@@ -43,6 +43,8 @@ class Chain {
   Eigen::Index ambient_size() const { return ambient_size_; }
   Eigen::Index size() const { return size_; }
   Eigen::Index dense_size() const { return dense_size_; }
+  /// Length of the leading part of an increment that holds joint coordinates and arclengths.
+  Eigen::Index geometric_size() const { return geometric_size_; }
   int joint_count() const { return static_cast<int>(joints_.size()); }
   int link_count() const { return static_cast<int>(links_.size()); }
   const Joint& joint(int j) const { return *joints_[j]; }
@@ -109,7 +111,7 @@ class Chain {
   /// Places of joint coordinates, arclengths and forces in a dense block.
   struct Numbering {
     std::vector<Eigen::Index> coordinate, arclength, force;  ///< arclength, force: −1 where absent
-    Eigen::Index size = 0;
+    Eigen::Index size = 0, geometric = 0;
     int constraints = 0;             ///< multipliers and touch locations: one negative direction each
   };
 
@@ -141,7 +143,7 @@ class Chain {
   std::vector<Link> links_;
   std::vector<Eigen::Index> joint_at_, force_at_, interior_at_;     // offsets in the state
   std::vector<Eigen::Index> joint_row_, force_row_, interior_row_;  // offsets in the increment
-  Eigen::Index ambient_size_ = 0, size_ = 0, dense_size_ = 0;
+  Eigen::Index ambient_size_ = 0, size_ = 0, dense_size_ = 0, geometric_size_ = 0;
 
   Numbering numbering_;
 
@@ -155,5 +157,8 @@ class Chain {
   Eigen::Index borders_ = 0;
   int determinant_sign_ = 0;
 };
+
+/// The state x of `from` on `to`, a chain of the same topology on other meshes.
+VectorXd transfer_state(const Chain& from, const Chain& to, const VectorXd& x, const Loads& loads);
 
 }  // namespace windlass::chain

@@ -30,7 +30,7 @@ struct Loads {
 };
 
 enum class Side { left, right };  ///< the arc that ends here, the arc that starts here
-enum class JointKind { end, touch, edge, mid, infinity };
+enum class JointKind { end, touch, edge, mid, marker, infinity };
 enum class Parity { even, odd };
 
 /// How one arc's end hangs on the joint: configuration q and position X with first derivatives.
@@ -39,6 +39,14 @@ struct Attachment {
   SmallMatrix dq;     ///< tangent × coordinates
   SmallVector x;      ///< position conjugate to the arc's n
   SmallMatrix dx;     ///< forces × coordinates
+};
+
+/// State of a rod at one place, from which a joint can take its coordinates.
+struct Place {
+  Eigen::Vector3d r = Eigen::Vector3d::Zero();
+  Eigen::Vector4d q = Eigen::Vector4d::UnitX();  ///< frame, body → world
+  double angle = 0.0;                            ///< unrolled place round the axis [rad]
+  double heading = 0.0;                          ///< unrolled angle of the tangent's projection to e_x [rad]
 };
 
 class Joint {
@@ -84,6 +92,9 @@ class Joint {
   }
 
   virtual void retract(const double* w, const double* dw, double* out) const = 0;
+
+  /// Coordinates of this joint when the rod there is as given: a guess.
+  virtual void adopt(const Place& place, double* w) const = 0;
 
   /// Place on the cylinder: angle from the south pole [rad] and height [ρ]; meaningful for contacts.
   virtual double angle(const double* w) const { return (void)w, 0.0; }

@@ -32,6 +32,7 @@ class Touch final : public VectorJoint {
                  SmallMatrix& out) const override;
   Location location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const override;
   double angle(const double* w) const override { return w[0]; }
+  void adopt(const Place& place, double* w) const override { w[0] = place.angle, w[1] = place.heading; }
 };
 
 /// End of a line contact: w = (a), arclength unknown.
@@ -47,6 +48,7 @@ class Edge final : public VectorJoint {
                  SmallMatrix& out) const override;
   Location location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const override;
   double angle(const double* w) const override { return w[0]; }
+  void adopt(const Place& place, double* w) const override { w[0] = place.angle; }
 
  private:
   Side line_;
@@ -59,6 +61,7 @@ class MidLine final : public VectorJoint {
   JointKind kind() const override { return JointKind::mid; }
   int tangent() const override { return 0; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
+  void adopt(const Place& place, double* w) const override { (void)place, (void)w; }
 };
 
 /// Mirror point on a free arc: x = 0, θ = 0 (mod 2π, held), w = (y). Odd variations: θ.
@@ -68,6 +71,29 @@ class MidGap final : public VectorJoint {
   int tangent() const override { return 1; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   Attachment attach_odd(const double* w, const Loads& loads) const override;
+  void adopt(const Place& place, double* w) const override { w[0] = place.r(1); }
+};
+
+/// The mid-point of a full chain on a free arc: w = (y, θ), x = 0 held. (On a line contact MidLine serves.)
+class MarkerGap final : public VectorJoint {
+ public:
+  JointKind kind() const override { return JointKind::marker; }
+  int tangent() const override { return 2; }
+  Attachment attach(Side side, const double* w, const Loads& loads) const override;
+  void adopt(const Place& place, double* w) const override { w[0] = place.r(1), w[1] = place.heading; }
+};
+
+/// Far end of an infinite tail: carries nothing.
+class FarEnd final : public VectorJoint {
+ public:
+  FarEnd(int configuration, int forces) : configuration_(configuration), forces_(forces) {}
+  JointKind kind() const override { return JointKind::infinity; }
+  int tangent() const override { return 0; }
+  Attachment attach(Side side, const double* w, const Loads& loads) const override;
+  void adopt(const Place& place, double* w) const override { (void)place, (void)w; }
+
+ private:
+  int configuration_, forces_;
 };
 
 /// Mirror point on a touch at the south pole: nothing unknown. Odd variations: (a, θ), the arclength held.
@@ -78,6 +104,7 @@ class MidTouch final : public VectorJoint {
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   Attachment attach_odd(const double* w, const Loads& loads) const override;
   void curvature_odd(const double* w, const SmallVector& f, SmallMatrix& out) const override;
+  void adopt(const Place& place, double* w) const override { (void)place, (void)w; }
 };
 
 /// Rod end under the dead pull. moment_free: w = (θ); clamped: θ along the pull, nothing unknown.
@@ -87,6 +114,9 @@ class End final : public VectorJoint {
   JointKind kind() const override { return JointKind::end; }
   int tangent() const override { return clamped_ ? 0 : 1; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
+  void adopt(const Place& place, double* w) const override {
+    if (!clamped_) w[0] = place.heading;
+  }
 
  private:
   Side arc_;

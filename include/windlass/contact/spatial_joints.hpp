@@ -40,6 +40,7 @@ class Touch final : public Joint {
   void retract(const double* w, const double* dw, double* out) const override;
   double angle(const double* w) const override { return w[0]; }
   double height(const double* w) const override { return w[1]; }
+  void adopt(const Place& place, double* w) const override;
 
  private:
   bool pinned_;
@@ -63,6 +64,7 @@ class Edge final : public VectorJoint {
   void retract(const double* w, const double* dw, double* out) const override;
   double angle(const double* w) const override { return w[0]; }
   double height(const double* w) const override { return w[1]; }
+  void adopt(const Place& place, double* w) const override;
 
  private:
   Side line_;
@@ -80,6 +82,37 @@ class MidLine final : public VectorJoint {
   int tangent() const override { return 1; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   Attachment attach_odd(const double* w, const Loads& loads) const override;
+  void adopt(const Place& place, double* w) const override;
+
+ private:
+  bool twist_held_;
+};
+
+/// The mid-point of a full chain lying on a line contact: w = (ψ), or (ψ, χ) when twist is held. It pins the rigid
+/// motions of the whole rod (a = z = 0; χ = 0 for ends free of moment).
+class MarkerLine final : public VectorJoint {
+ public:
+  explicit MarkerLine(bool twist_held) : twist_held_(twist_held) {}
+  JointKind kind() const override { return JointKind::marker; }
+  int tangent() const override { return twist_held_ ? 2 : 1; }
+  Attachment attach(Side side, const double* w, const Loads& loads) const override;
+  void adopt(const Place& place, double* w) const override;
+
+ private:
+  bool twist_held_;
+};
+
+/// The mid-point of a full chain on a free arc: w = (y, q), with x = z = 0 held, and the spin about d₃ unless twist is
+/// held. 4 or 3 degrees of freedom.
+class MarkerGap final : public Joint {
+ public:
+  explicit MarkerGap(bool twist_held) : twist_held_(twist_held) {}
+  JointKind kind() const override { return JointKind::marker; }
+  int ambient() const override { return 5; }
+  int tangent() const override { return twist_held_ ? 4 : 3; }
+  Attachment attach(Side side, const double* w, const Loads& loads) const override;
+  void retract(const double* w, const double* dw, double* out) const override;
+  void adopt(const Place& place, double* w) const override;
 
  private:
   bool twist_held_;
@@ -99,6 +132,7 @@ class MidGap final : public VectorJoint {
   int tangent() const override { return 2; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   Attachment attach_odd(const double* w, const Loads& loads) const override;
+  void adopt(const Place& place, double* w) const override;
 
  private:
   OddFreedom odd_;
@@ -113,6 +147,7 @@ class MidTouch final : public VectorJoint {
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   Attachment attach_odd(const double* w, const Loads& loads) const override;
   void curvature_odd(const double* w, const SmallVector& f, SmallMatrix& out) const override;
+  void adopt(const Place& place, double* w) const override;
 
  private:
   bool twist_held_;
@@ -128,6 +163,7 @@ class End final : public Joint {
   int tangent() const override { return clamped_ ? 0 : pinned_ ? 2 : 3; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   void retract(const double* w, const double* dw, double* out) const override;
+  void adopt(const Place& place, double* w) const override;
 
  private:
   Side arc_;
@@ -143,6 +179,7 @@ class StrutEnd final : public VectorJoint {
   int tangent() const override { return under_thrust_ ? 1 : 0; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   SmallVector dead_load(const double* w, const Loads& loads) const override;
+  void adopt(const Place& place, double* w) const override;
 
  private:
   Side arc_;

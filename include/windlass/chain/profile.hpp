@@ -1,0 +1,56 @@
+#pragma once
+
+#include <vector>
+
+#include "windlass/chain/chain.hpp"
+#include "windlass/chain/topology.hpp"
+
+/// A chain's state as a curve in space: what events, output, and guesses for other topologies read.
+namespace windlass::chain {
+
+/// One arc sampled at its Lagrange points. World frame, dimensionless; shapes as in equilibrium::ArcRecord.
+struct Piece {
+  Stretch stretch = Stretch::tail;
+  int stride = 1;                 ///< samples an element: polynomials of this degree run through stride + 1 samples
+  VectorXd s;
+  Eigen::Matrix3Xd r, n, m;
+  Eigen::Matrix4Xd q;
+  VectorXd angle;                 ///< unrolled place round the axis, 0 at the south pole [rad]
+  VectorXd heading;               ///< unrolled angle of the tangent's projection to e_x [rad]
+  VectorXd p;                     ///< contact force per length
+  VectorXd inclination;           ///< of the tangent to the plane of the cylinder's section [rad]
+  double force = 0.0;             ///< ∫ p ds
+};
+
+/// A contact joint as seen from outside.
+struct Contact {
+  int joint = 0;
+  bool edge = false;
+  double s = 0.0, angle = 0.0, z = 0.0;
+  double force = 0.0;             ///< outward on the rod; >= 0 where the contact holds
+  double gap_curvature = 0.0;     ///< g'' at a touch, >= 0
+};
+
+struct Profile {
+  std::vector<Piece> pieces;      ///< in the order of the chain's links
+  std::vector<Contact> contacts;  ///< in the order of the chain's joints
+
+  double begin() const { return pieces.front().s(0); }
+  double end() const { return pieces.back().s(pieces.back().s.size() - 1); }
+  /// Interpolated state at arclength s (clamped to the profile).
+  struct At : contact::Place {
+    Eigen::Vector3d n, m;
+  };
+  At at(double s) const;
+};
+
+Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod, const VectorXd& x,
+                const Loads& loads);
+
+/// Sum of the sizes of all contact forces of the whole rod (both halves for a half chain).
+double total_contact_force(const Profile& profile, const Topology& topology);
+
+/// Outward gap sqrt(x² + y²) − 1.
+double gap(const Eigen::Vector3d& r);
+
+}  // namespace windlass::chain

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "windlass/chain/profile.hpp"
+#include "windlass/chain/topology.hpp"
+
+/// Where a contact topology ends, and which one follows.
+///
+/// | event | positive quantity | what follows |
+/// |---|---|---|
+/// | pressure | least pressure on a line contact | the line opens: a gap inside it, or all of it |
+/// | length | length of a line contact, or of a gap between contacts | a touch in its place |
+/// | force | point force at a touch or an edge | the touch is lost (an edge: no successor is known) |
+/// | curvature | g'' at a touch | the touch flattens into a line |
+/// | graze | least gap inside a free arc | a new touch |
+namespace windlass::equilibrium {
+
+struct ContactEvent {
+  enum class Kind { pressure, length, force, curvature, graze };
+  Kind kind = Kind::force;
+  int place = 0;       ///< link (pressure, length, graze) or joint (force, curvature)
+  double value = 0.0;
+  double s = 0.0;      ///< where along the rod
+  std::string name() const;
+};
+
+/// All events of a state, in a fixed order for a given topology.
+std::vector<ContactEvent> contact_events(const chain::Profile& profile, const chain::Topology& topology);
+
+/// A topology with the arclengths of its joints, to be filled from the old profile.
+struct Successor {
+  chain::Topology topology;
+  std::vector<double> s;                 ///< one a joint of the new chain
+  std::vector<int> source;               ///< link of the old chain whose mesh each new arc inherits
+  bool nothing_left = false;             ///< no contact remains: the branch ends
+};
+
+/// Candidates for what follows the event, most likely first.
+std::vector<Successor> successors(const ContactEvent& event, const chain::Profile& profile,
+                                  const chain::Topology& topology, const std::vector<double>& s);
+
+}  // namespace windlass::equilibrium

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "windlass/equilibrium/rod_problem.hpp"
+#include "windlass/equilibrium/solution.hpp"
+
+/// From a discrete state to the value that is written, plotted and checked, and back.
+namespace windlass::equilibrium {
+
+/// The whole rod (both halves) at state x and parameters p. Error estimate and iterations are the problem's last.
+Solution record(RodProblem& problem, const Vector& x, const Vector& p);
+
+/// Chain description and state, for Solution::restart.
+Restart restart_of(const RodProblem& problem, const Vector& x);
+
+/// The problem and state a stored solution came from. @throws std::runtime_error for damaged restart data
+std::shared_ptr<RodProblem> reopen(const scene::Scene& scene, const Restart& restart, std::vector<std::string> keys);
+
+/// Largest drift of the invariants along the rod and the residual of the force balance; fills solution.invariants.
+void measure_invariants(Solution& solution, const chain::RodKind& kind);
+
+/// Total contact force etc. from the closed form alone (model "closed_form"). @throws std::domain_error below the
+/// limit of line contact
+Solution closed_form_solution(const scene::Scene& scene);
+
+}  // namespace windlass::equilibrium

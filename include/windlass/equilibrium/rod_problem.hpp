@@ -1,0 +1,89 @@
+#pragma once
+
+#include <continuation/problem.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "windlass/chain/guess.hpp"
+#include "windlass/chain/profile.hpp"
+#include "windlass/chain/topology.hpp"
+#include "windlass/scene/scene.hpp"
+
+/// Equilibria of a rod as the continuation library sees them.
+namespace windlass::equilibrium {
+
+using chain::Topology;
+using continuation::Vector;
+
+/// Loads of a scene, and the rod it describes.
+contact::Loads loads_of(const scene::Scene& scene);
+chain::RodKind rod_of(const scene::Scene& scene, bool spatial);
+
+/// One contact topology on one mesh. Parameters p are the scene keys given at construction, in that order.
+class RodProblem final : public continuation::Problem {
+ public:
+  /// @param keys  dotted scene keys that p holds, e.g. {"load.tension", "load.angle"}
+  RodProblem(scene::Scene scene, bool spatial, Topology topology, std::vector<chain::ArcMesh> meshes,
+             std::vector<std::string> keys);
+
+  Eigen::Index size() const override { return chain_->size(); }
+  Vector residual(const Vector& x, const Vector& p) override;
+  void factor(const Vector& x, const Vector& p, const Eigen::MatrixXd& b, const Eigen::MatrixXd& c,
+              const Eigen::MatrixXd& d) override;
+  Vector solve(const Vector& f, const Vector& g) override { return chain_->solve(f, g); }
+  Vector solve_transposed(const Vector& f, const Vector& g) override { return chain_->solve(f, g, true); }
+  int index(const Vector& x, const Vector& p) override;
+  int determinant_sign() override { return chain_->determinant_sign(); }
+  Vector retract(const Vector& x, const Vector& dx) const override { return chain_->retract(x, dx); }
+  double inner(const Vector& a, const Vector& b) const override;
+  Vector dual(const Vector& a) const override;
+  std::vector<continuation::EventFunction> events(const Vector& x, const Vector& p) override;
+  std::optional<continuation::Transition> transition(std::size_t which, const Vector& x, const Vector& p) override;
+  std::optional<Vector> adapt(const Vector& x, const Vector& p) override;
+  Vector fingerprint(const Vector& x, const Vector& p) override;
+  std::shared_ptr<continuation::Problem> clone() const override;
+
+  /// Relative error of R_tot (strut: end force): the change under one Newton step with one more stage an element.
+  double error_estimate(const Vector& x, const Vector& p);
+  /// Remeshes until error_estimate() is below the scene's tolerance, or `rounds` are used; returns the new state.
+  /// @throws std::runtime_error if Newton fails on a refined mesh
+  Vector refine(Vector x, const Vector& p, int rounds = 6);
+  /// Newton at fixed p on the bare chain. @returns iterations used, or −1
+  int polish(Vector& x, const Vector& p, int most = 25);
+
+  chain::Profile profile(const Vector& x, const Vector& p);
+  contact::Loads loads(const Vector& p);
+  Vector parameters() const;  ///< p of the scene itself
+  scene::Scene scene_at(const Vector& p) const;
+
+  const chain::Chain& chain() const { return *chain_; }
+  chain::Chain& chain() { return *chain_; }
+  const Topology& topology() const { return topology_; }
+  const chain::RodKind& rod() const { return rod_; }
+  const std::vector<chain::ArcMesh>& meshes() const { return meshes_; }
+  const std::vector<std::string>& keys() const { return keys_; }
+  bool spatial() const { return spatial_; }
+  double last_error() const { return last_error_; }
+
+  /// Quantity whose relative error is controlled: R_tot, or a strut's end force.
+  double target(const chain::Chain& chain, const Vector& x, const contact::Loads& loads) const;
+
+ private:
+  void rebuild();
+  std::vector<chain::ArcMesh> new_meshes(const Vector& x, const contact::Loads& loads, double growth) const;
+
+  scene::Scene scene_;
+  bool spatial_;
+  Topology topology_;
+  std::vector<chain::ArcMesh> meshes_;
+  std::vector<std::string> keys_;
+  chain::RodKind rod_;
+  contact::Loads base_;
+  std::vector<double contact::Loads::*> fields_;  ///< where each parameter lives; null: rebuilds the rod
+  std::unique_ptr<chain::Chain> chain_, finer_;   ///< finer_: one more stage, for the error estimate
+  double last_error_ = 0.0;
+};
+
+}  // namespace windlass::equilibrium

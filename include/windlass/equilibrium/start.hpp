@@ -1,0 +1,37 @@
+#pragma once
+
+#include "windlass/equilibrium/rod_problem.hpp"
+#include "windlass/equilibrium/solution.hpp"
+
+/// From a scene to a first equilibrium.
+namespace windlass::equilibrium {
+
+/// No equilibrium of the asked kind exists or was found; the message says which and why.
+class NoEquilibrium : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct Started {
+  std::shared_ptr<RodProblem> problem;
+  Vector x, p;
+  int newton_iterations = 0;
+};
+
+/// One equilibrium from nothing. The contact topology is an outcome: first the closed form's (a line contact where it
+/// can exist, else a touch), then what the complementarity problem on a fixed mesh finds, then the state reached from a
+/// higher tension by continuation through all contact events.
+/// @throws NoEquilibrium
+Started cold_start(const scene::Scene& scene, bool spatial, bool half, const std::vector<std::string>& keys);
+
+/// The planar state as a state of the Kirchhoff rod (half or full chain): equal up to discretisation.
+Started lift(RodProblem& planar, const Vector& x, const Vector& p, bool half);
+
+/// The full chain of a symmetric state. @throws NoEquilibrium
+Started unfold(RodProblem& halved, const Vector& x, const Vector& p, int iterations);
+
+/// `solve`: climbs the rungs closed form, planar, Kirchhoff half, Kirchhoff full as far as the scene needs; the result
+/// names the rung and the reason. @throws NoEquilibrium
+Solution solve(const scene::Scene& scene);
+
+}  // namespace windlass::equilibrium

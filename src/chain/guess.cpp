@@ -1,0 +1,195 @@
+#include "windlass/chain/guess.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "windlass/bvp/collocation_table.hpp"
+#include "windlass/contact/spatial_joints.hpp"
+
+namespace windlass::chain {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// Momenta conserved on a line contact, from the state in its middle.
+void adopt_force(const RodKind& rod, Stretch stretch, const Profile::At& at, double* n, int forces) {
+  if (stretch != Stretch::line) {
+    for (int k = 0; k < forces; ++k) n[k] = at.n(k);
+    return;
+  }
+  n[0] = (at.m + at.r.cross(at.n))(2);
+  if (rod.spatial) n[1] = at.n(2);
+}
+
+void adopt_interior(const RodKind& rod, Stretch stretch, const Arc& arc, const Profile& profile, double begin,
+                    double length, double* out) {
+  const std::vector<double> mesh = arc.mesh();
+  const VectorXd& points = bvp::CollocationTable::get(arc.stages()).lobatto;
+  double twist = 0.0;
+  for (int k = 1; k <= arc.interior_nodes(); ++k) {
+    const int e = k / arc.stages();
+    const double sigma = mesh[e] + (mesh[e + 1] - mesh[e]) * points(k % arc.stages());
+    const Profile::At at = profile.at(begin + length * sigma);
+    double* q = out + (k - 1) * arc.ambient();
+    if (stretch == Stretch::line) {
+      const Vector3d c = contact::spatial::surface_coordinates(at.q, at.angle);
+      q[0] = c(1);
+      q[1] = twist += std::remainder(c(2) - twist, 2.0 * M_PI);
+    } else if (rod.spatial) {
+      for (int i = 0; i < 4; ++i) q[i] = at.q(i);
+    } else {
+      q[0] = at.heading;
+    }
+  }
+}
+
+void set_planar(Piece& piece, Eigen::Index k, double heading, const Eigen::Vector2d& r, const Eigen::Vector2d& n,
+                double m) {
+  piece.heading(k) = heading;
+  piece.q.col(k) = contact::spatial::surface_frame(heading, 0.0, 0.0);
+  piece.r.col(k) << r, 0.0;
+  piece.n.col(k) << n, 0.0;
+  piece.m.col(k) << 0.0, 0.0, m;
+}
+
+Piece empty_piece(Stretch stretch, Eigen::Index count) {
+  Piece piece;
+  piece.stretch = stretch;
+  piece.s.resize(count);
+  piece.r.resize(3, count);
+  piece.n.resize(3, count);
+  piece.m.resize(3, count);
+  piece.q.resize(4, count);
+  piece.angle.setZero(count);
+  piece.heading.setZero(count);
+  piece.p.setZero(count);
+  piece.inclination.setZero(count);
+  return piece;
+}
+
+}  // namespace
+
+VectorXd guess_state(const Chain& chain, const Topology& topology, const RodKind& rod, const Profile& profile,
+                     const std::vector<double>& s) {
+  const std::vector<Stretch> kinds = stretches(topology);
+  VectorXd x = VectorXd::Zero(chain.ambient_size());
+  for (int j = 0; j < chain.joint_count(); ++j) {
+    chain.joint(j).adopt(profile.at(s[j]), chain.coordinates(x, j));
+    chain.set_arclength(x, j, s[j]);
+  }
+  for (int i = 0; i < chain.link_count(); ++i) {
+    const Arc& arc = *chain.link(i).arc;
+    const double begin = s[i], length = s[i + 1] - s[i];
+    if (chain.link(i).pull == 0)
+      adopt_force(rod, kinds[i], profile.at(begin + 0.5 * length), chain.force(x, i), arc.forces());
+    if (arc.interior_nodes() > 0)
+      adopt_interior(rod, kinds[i], arc, profile, begin, length, chain.interior(x, i));
+  }
+  return x;
+}
+
+Profile mirrored(const Profile& half, const Topology&) {
+  const Vector3d turn(-1.0, 1.0, -1.0);
+  const Eigen::Vector4d q0 = half.pieces.front().q.col(0), j(0, 0, 1, 0), i(0, 1, 0, 0);
+  const double sign = rod::product(j, rod::product(q0, i)).dot(q0) < 0.0 ? -1.0 : 1.0;
+  Profile out;
+  for (auto piece = half.pieces.rbegin(); piece != half.pieces.rend(); ++piece) {
+    Piece image = *piece;
+    image.s = -piece->s.reverse();
+    image.angle = -piece->angle.reverse();
+    image.heading = -piece->heading.reverse();
+    image.p = piece->p.reverse();
+    image.inclination = piece->inclination.reverse();
+    image.r = turn.asDiagonal() * piece->r.rowwise().reverse();
+    image.n = -(turn.asDiagonal() * piece->n.rowwise().reverse());
+    image.m = -(turn.asDiagonal() * piece->m.rowwise().reverse());
+    const Eigen::Index count = piece->s.size();
+    for (Eigen::Index k = 0; k < count; ++k)
+      image.q.col(k) = sign * rod::product(j, rod::product(piece->q.col(count - 1 - k), i));
+    out.pieces.push_back(image);
+  }
+  out.pieces.insert(out.pieces.end(), half.pieces.begin(), half.pieces.end());
+  return out;
+}
+
+Profile capstan_profile(double tension, double angle, double half_length, double b) {
+  constexpr int line_samples = 241, tail_samples = 801;
+  const double limit = 0.5 * b / tension;  // 1 − cos β
+  const double beta = std::min(std::acos(std::clamp(1.0 - limit, -1.0, 1.0)), 0.5 * angle);
+  const double contact = 0.5 * angle - beta;
+  Profile out;
+  if (contact > 0.0) {
+    Piece line = empty_piece(Stretch::line, line_samples);
+    const double pull = tension - 0.5 * b;
+    for (int k = 0; k < line_samples; ++k) {
+      const double a = contact * k / (line_samples - 1);
+      line.s(k) = line.angle(k) = a;
+      line.p(k) = pull;
+      set_planar(line, k, a, {std::sin(a), -std::cos(a)}, pull * Eigen::Vector2d(std::cos(a), std::sin(a)), b);
+    }
+    out.pieces.push_back(line);
+  }
+  Piece tail = empty_piece(Stretch::tail, tail_samples);
+  const double rate = std::sqrt(tension / b), length = half_length - contact;
+  const Eigen::Vector2d pull = tension * Eigen::Vector2d(std::cos(0.5 * angle), std::sin(0.5 * angle));
+  Eigen::Vector2d r(std::sin(contact), -std::cos(contact));
+  double before = contact, d_before = 0.0;
+  for (int k = 0; k < tail_samples; ++k) {
+    const double x = static_cast<double>(k) / (tail_samples - 1), d = length * x * x;
+    const double psi = 4.0 * std::atan(std::tan(0.25 * beta) * std::exp(-rate * d));
+    const double heading = 0.5 * angle - psi, middle = 0.5 * (heading + before);
+    r += (d - d_before) * Eigen::Vector2d(std::cos(middle), std::sin(middle));
+    before = heading;
+    d_before = d;
+    tail.s(k) = contact + d;
+    set_planar(tail, k, heading, r, pull, 2.0 * b * rate * std::sin(0.5 * psi));
+    const double turn = std::atan2(r(0), -r(1)), last = k == 0 ? contact : tail.angle(k - 1);
+    tail.angle(k) = last + std::remainder(turn - last, 2.0 * M_PI);
+  }
+  out.pieces.push_back(tail);
+  return out;
+}
+
+Profile strut_profile(const Loads& loads, double bow) {
+  constexpr int samples = 201;
+  Piece rod = empty_piece(Stretch::tail, samples);
+  const double half = loads.half_length;
+  Vector3d r = Vector3d::Zero();
+  for (int k = 0; k < samples; ++k) {
+    const double s = half * k / (samples - 1);
+    const double heading = bow * std::sin(M_PI * s / half);
+    rod.s(k) = s;
+    if (k > 0) r += (s - rod.s(k - 1)) * Vector3d(std::cos(heading), std::sin(heading), 0.0);
+    set_planar(rod, k, heading, r.head<2>(), Eigen::Vector2d::Zero(), 0.0);
+    rod.q.col(k) = rod::product(rod.q.col(k), rod::rotation(Vector3d::UnitZ(), 0.5 * loads.twist * s / half));
+  }
+  Profile out;
+  rod.r.row(1).array() -= rod.r(1, samples - 1);
+  out.pieces.push_back(rod);
+  return out;
+}
+
+std::vector<double> tail_mesh(double tension, double length, int elements, int stages) {
+  // Equal error an element: |θ^(M+1)|^(1/(M+1)) ∝ exp(−√T d/(M+1)); the density's integral is inverted. A floor keeps
+  // elements in the straight part.
+  const double rate = std::sqrt(tension) / (stages + 1);
+  const auto cumulative = [&](double d) { return (1.0 - std::exp(-rate * d)) / rate + 0.02 * d; };
+  std::vector<double> mesh{0.0};
+  for (int i = 1; i < elements; ++i) {
+    const double goal = cumulative(length) * i / elements;
+    double low = 0.0, high = length;
+    for (int k = 0; k < 60; ++k) (cumulative(0.5 * (low + high)) < goal ? low : high) = 0.5 * (low + high);
+    mesh.push_back(0.5 * (low + high) / length);
+  }
+  mesh.push_back(1.0);
+  return mesh;
+}
+
+std::vector<double> uniform_mesh(int elements) {
+  std::vector<double> mesh;
+  for (int i = 0; i <= elements; ++i) mesh.push_back(static_cast<double>(i) / elements);
+  return mesh;
+}
+
+}  // namespace windlass::chain

@@ -1,0 +1,152 @@
+#include "windlass/chain/topology.hpp"
+
+#include <limits>
+#include <stdexcept>
+
+#include "windlass/contact/planar_joints.hpp"
+#include "windlass/contact/spatial_joints.hpp"
+#include "windlass/rod/closed_form_arcs.hpp"
+#include "windlass/rod/kirchhoff_density.hpp"
+#include "windlass/rod/planar_density.hpp"
+#include "windlass/rod/surface_density.hpp"
+
+namespace windlass::chain {
+
+using contact::Side;
+namespace planar = contact::planar;
+namespace spatial = contact::spatial;
+
+namespace {
+
+const char* word(Stretch stretch) {
+  return stretch == Stretch::line ? "line" : stretch == Stretch::gap ? "gap" : "tail";
+}
+
+std::unique_ptr<Joint> first_joint(const RodKind& rod, const Topology& t) {
+  const bool held = rod.clamped || rod.strut || !rod.isotropic_straight();
+  if (t.right.front() == Stretch::line) {
+    if (rod.spatial) return std::make_unique<spatial::MidLine>(held);
+    return std::make_unique<planar::MidLine>();
+  }
+  if (t.mid_touch) {
+    if (rod.spatial) return std::make_unique<spatial::MidTouch>(held);
+    return std::make_unique<planar::MidTouch>();
+  }
+  if (!rod.spatial) return std::make_unique<planar::MidGap>();
+  // A strut's ends are held in space: x is no rigid motion; z is the phase of an isotropic strut's buckling plane.
+  return std::make_unique<spatial::MidGap>(
+      spatial::MidGap::OddFreedom{rod.strut, rod.strut && !rod.isotropic_straight(), held});
+}
+
+std::unique_ptr<Joint> marker(const RodKind& rod, const Topology& t) {
+  const bool held = rod.clamped || rod.strut || !rod.isotropic_straight();
+  if (t.mid_touch) throw std::invalid_argument("a full chain with a touch at its mid-point is not supported");
+  if (t.right.front() == Stretch::line) {
+    if (rod.spatial) return std::make_unique<spatial::MarkerLine>(held);
+    return std::make_unique<planar::MidLine>();
+  }
+  if (rod.spatial) return std::make_unique<spatial::MarkerGap>(held);
+  return std::make_unique<planar::MarkerGap>();
+}
+
+std::unique_ptr<Joint> end_joint(const RodKind& rod, Side arc_side) {
+  if (rod.strut) return std::make_unique<spatial::StrutEnd>(arc_side, rod.under_thrust);
+  if (rod.infinite) return std::make_unique<planar::FarEnd>(rod.spatial ? 3 : 1, rod.spatial ? 3 : 2);
+  if (rod.spatial) return std::make_unique<spatial::End>(arc_side, rod.clamped);
+  return std::make_unique<planar::End>(arc_side, rod.clamped);
+}
+
+/// Joint between two stretches, the first on the left.
+std::unique_ptr<Joint> contact_joint(const RodKind& rod, Stretch left, Stretch right) {
+  if (left == Stretch::line && right == Stretch::line)
+    throw std::invalid_argument("two line contacts cannot meet at a joint");
+  if (left != Stretch::line && right != Stretch::line) {
+    if (rod.spatial) return std::make_unique<spatial::Touch>();
+    return std::make_unique<planar::Touch>();
+  }
+  const Side line = left == Stretch::line ? Side::left : Side::right;
+  if (rod.spatial) return std::make_unique<spatial::Edge>(line, rod.bending_stiffness);
+  return std::make_unique<planar::Edge>(line, rod.bending_stiffness);
+}
+
+std::unique_ptr<Arc> make_arc(const RodKind& rod, Stretch stretch, const ArcMesh& mesh, bool rightward) {
+  if (stretch == Stretch::line) {
+    if (!rod.spatial) return std::make_unique<rod::PlanarLineArc>(rod.bending_stiffness);
+    if (!rod.isotropic_straight())
+      throw std::invalid_argument("a line contact needs an isotropic, naturally straight rod");
+    const rod::SurfaceDensity density{rod.bending_stiffness, rod.stiffness(2)};
+    return bvp::make_collocation_arc(density, mesh.nodes, mesh.stages);
+  }
+  if (stretch == Stretch::tail && rod.infinite)
+    return std::make_unique<rod::TailArc>(rod.spatial ? 3 : 2, rod.bending_stiffness, rightward);
+  if (!rod.spatial)
+    return bvp::make_collocation_arc(rod::PlanarDensity{rod.bending_stiffness}, mesh.nodes, mesh.stages);
+  return bvp::make_collocation_arc(rod::KirchhoffDensity{rod.stiffness, rod.natural}, mesh.nodes, mesh.stages);
+}
+
+}  // namespace
+
+std::vector<Stretch> stretches(const Topology& t) {
+  std::vector<Stretch> all;
+  if (!t.half) all.assign(t.left.rbegin(), t.left.rend());
+  all.insert(all.end(), t.right.begin(), t.right.end());
+  return all;
+}
+
+bool Topology::contact() const {
+  return mid_touch || right.size() > 1 || left.size() > 1;
+}
+
+std::string Topology::text() const {
+  const std::vector<Stretch>& other = half ? right : left;
+  std::vector<std::string> words;
+  const auto add = [&](const std::vector<Stretch>& side, bool outward) {
+    for (std::size_t k = 0; k < side.size(); ++k) {
+      const std::size_t i = outward ? k : side.size() - 1 - k;
+      if (outward && i == 0 && !mid_touch) continue;  // the first stretch spans both halves
+      if (outward && i > 0 && side[i] != Stretch::line && side[i - 1] != Stretch::line) words.push_back("touch");
+      words.push_back(word(side[i]));
+      if (!outward && i > 0 && side[i] != Stretch::line && side[i - 1] != Stretch::line) words.push_back("touch");
+    }
+  };
+  add(other, false);
+  if (mid_touch) words.push_back("touch");
+  add(right, true);
+  std::string text;
+  for (const auto& w : words) text += (text.empty() ? "" : " ") + w;
+  return text;
+}
+
+std::unique_ptr<Chain> build_chain(const RodKind& rod, const Topology& t, const std::vector<ArcMesh>& meshes) {
+  if (rod.strut && !rod.spatial) throw std::invalid_argument("struts are computed with the Kirchhoff rod");
+  const std::vector<Stretch> all = stretches(t);
+  const double end = rod.infinite ? std::numeric_limits<double>::infinity() : 1.0;
+  const int left_count = t.half ? 0 : static_cast<int>(t.left.size());
+  std::vector<std::unique_ptr<Joint>> joints;
+  std::vector<double> fixed;
+  std::vector<Link> links;
+  for (int i = 0; i <= static_cast<int>(all.size()); ++i) {
+    if (t.half && i == 0) {
+      joints.push_back(first_joint(rod, t));
+      fixed.push_back(0.0);
+    } else if (i == 0 || i == static_cast<int>(all.size())) {
+      joints.push_back(end_joint(rod, i == 0 ? Side::right : Side::left));
+      fixed.push_back(i == 0 ? -end : end);
+    } else if (!t.half && i == left_count) {
+      joints.push_back(marker(rod, t));
+      fixed.push_back(0.0);
+    } else {
+      joints.push_back(contact_joint(rod, all[i - 1], all[i]));
+      fixed.push_back(0.0);
+    }
+    if (i == static_cast<int>(all.size())) break;
+    Link link;
+    link.arc = make_arc(rod, all[i], meshes.empty() ? ArcMesh{} : meshes.at(i), i >= left_count);
+    link.role = word(all[i]);
+    if (all[i] == Stretch::tail && !rod.strut) link.pull = i >= left_count ? 1 : -1;
+    links.push_back(std::move(link));
+  }
+  return std::make_unique<Chain>(std::move(joints), std::move(fixed), std::move(links));
+}
+
+}  // namespace windlass::chain

@@ -1,0 +1,263 @@
+#include "windlass/equilibrium/record.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "windlass/rod/quaternion.hpp"
+
+namespace windlass::equilibrium {
+
+using chain::Piece;
+using chain::Stretch;
+using Eigen::Vector3d;
+using Eigen::Vector4d;
+
+namespace {
+
+/// Element ends only: there collocation is superconvergent, and the certificate integrates from sample to sample.
+ArcRecord arc_record(const Piece& piece, Stretch stretch) {
+  ArcRecord arc;
+  arc.kind = stretch == Stretch::line ? ArcKind::line : ArcKind::free;
+  arc.role = stretch == Stretch::line ? "line" : stretch == Stretch::gap ? "gap" : "tail";
+  const Eigen::Index count = (piece.s.size() - 1) / piece.stride + 1;
+  arc.s.resize(count);
+  arc.r.resize(3, count);
+  arc.q.resize(4, count);
+  arc.n.resize(3, count);
+  arc.m.resize(3, count);
+  arc.p.resize(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Eigen::Index i = k * piece.stride;
+    arc.s(k) = piece.s(i);
+    arc.r.col(k) = piece.r.col(i);
+    arc.q.col(k) = piece.q.col(i);
+    arc.n.col(k) = piece.n.col(i);
+    arc.m.col(k) = piece.m.col(i);
+    arc.p(k) = piece.p(i);
+  }
+  arc.s_begin = arc.s(0);
+  arc.s_end = arc.s(count - 1);
+  arc.force = piece.force;
+  return arc;
+}
+
+/// Image of an arc under the half-turn about e_y with s → −s. Directors: d1 → Rot d1, d2, d3 → −Rot d2, d3.
+ArcRecord mirrored(const ArcRecord& arc, double sign) {
+  ArcRecord out = arc;
+  const Vector3d turn(-1.0, 1.0, -1.0);
+  const Eigen::Index count = arc.s.size();
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Eigen::Index i = count - 1 - k;
+    out.s(k) = -arc.s(i);
+    out.r.col(k) = turn.cwiseProduct(arc.r.col(i));
+    out.q.col(k) = sign * rod::product(Vector4d(0, 0, 1, 0), rod::product(arc.q.col(i), Vector4d(0, 1, 0, 0)));
+    out.n.col(k) = -turn.cwiseProduct(arc.n.col(i));
+    out.m.col(k) = -turn.cwiseProduct(arc.m.col(i));
+    out.p(k) = arc.p(i);
+  }
+  out.s_begin = out.s(0);
+  out.s_end = out.s(count - 1);
+  return out;
+}
+
+void append(ArcRecord& arc, const ArcRecord& next) {
+  const Eigen::Index a = arc.s.size(), b = next.s.size() - 1;  // the shared sample once
+  const auto join = [&](auto& left, const auto& right) {
+    auto both = left;
+    both.conservativeResize(Eigen::NoChange, a + b);
+    both.rightCols(b) = right.rightCols(b);
+    left = both;
+  };
+  Eigen::VectorXd s(a + b), p(a + b);
+  s << arc.s, next.s.tail(b);
+  p << arc.p, next.p.tail(b);
+  arc.s = s;
+  arc.p = p;
+  join(arc.r, next.r);
+  join(arc.q, next.q);
+  join(arc.n, next.n);
+  join(arc.m, next.m);
+  arc.s_end = next.s_end;
+  arc.force += next.force;
+}
+
+JointRecord end_record(const ArcRecord& arc, bool at_end, bool infinite) {
+  JointRecord joint;
+  joint.kind = infinite ? JointKind::infinity : JointKind::end;
+  const Eigen::Index k = at_end ? arc.s.size() - 1 : 0;
+  joint.s = arc.s(k);
+  joint.r = arc.r.col(k);
+  joint.angle = std::atan2(joint.r(0), -joint.r(1));
+  joint.z = joint.r(2);
+  return joint;
+}
+
+JointRecord contact_record(const chain::Contact& c, double sign) {
+  JointRecord joint;
+  joint.kind = c.edge ? JointKind::edge : JointKind::touch;
+  joint.s = sign * c.s;
+  joint.angle = sign * c.angle;
+  joint.z = sign * c.z;
+  joint.force = c.force;
+  joint.r = {std::sin(joint.angle), -std::cos(joint.angle), joint.z};
+  return joint;
+}
+
+/// Arcs and joints of the whole rod from −L/2 to L/2.
+void assemble(const chain::Profile& shape, const Topology& topology, bool infinite, Solution& out) {
+  std::vector<ArcRecord> arcs;
+  const std::vector<Stretch> kinds = chain::stretches(topology);
+  for (std::size_t i = 0; i < shape.pieces.size(); ++i) arcs.push_back(arc_record(shape.pieces[i], kinds[i]));
+  std::vector<JointRecord> contacts;
+  for (const chain::Contact& c : shape.contacts) contacts.push_back(contact_record(c, 1.0));
+  if (topology.half) {
+    const Vector4d q0 = arcs.front().q.col(0);
+    const Vector4d image = rod::product(Vector4d(0, 0, 1, 0), rod::product(q0, Vector4d(0, 1, 0, 0)));
+    const double sign = image.dot(q0) < 0.0 ? -1.0 : 1.0;
+    std::vector<ArcRecord> all;
+    std::vector<JointRecord> joints;
+    for (std::size_t i = arcs.size(); i-- > 0;) all.push_back(mirrored(arcs[i], sign));
+    for (std::size_t j = shape.contacts.size(); j-- > 0;)
+      if (!(topology.mid_touch && j == 0)) joints.push_back(contact_record(shape.contacts[j], -1.0));
+    if (!topology.mid_touch) {  // the first stretch spans both halves
+      append(all.back(), arcs.front());
+      arcs.erase(arcs.begin());
+    }
+    all.insert(all.end(), arcs.begin(), arcs.end());
+    joints.insert(joints.end(), contacts.begin(), contacts.end());
+    arcs = std::move(all);
+    contacts = std::move(joints);
+  } else {  // the mid-point of a full chain is no joint
+    const std::size_t marker = topology.left.size();
+    append(arcs[marker - 1], arcs[marker]);
+    arcs.erase(arcs.begin() + static_cast<std::ptrdiff_t>(marker));
+  }
+  out.joints.push_back(end_record(arcs.front(), false, infinite));
+  out.joints.insert(out.joints.end(), contacts.begin(), contacts.end());
+  out.joints.push_back(end_record(arcs.back(), true, infinite));
+  out.arcs = std::move(arcs);
+}
+
+void measure_shape(Solution& out) {
+  double low = 1e300, high = -1e300, first = 1e300, last = -1e300, nearest = 1e300;
+  for (const ArcRecord& arc : out.arcs) {
+    low = std::min(low, arc.r.row(2).minCoeff());
+    high = std::max(high, arc.r.row(2).maxCoeff());
+    for (Eigen::Index k = 0; k < arc.s.size(); ++k)
+      if (std::abs(arc.s(k)) < nearest) {
+        nearest = std::abs(arc.s(k));
+        out.tilt = std::asin(std::clamp(rod::directors(arc.q.col(k))(2, 2), -1.0, 1.0));
+      }
+  }
+  for (const JointRecord& joint : out.joints) {
+    if (joint.kind != JointKind::touch && joint.kind != JointKind::edge) continue;
+    first = std::min(first, joint.angle);
+    last = std::max(last, joint.angle);
+  }
+  out.z_span = high - low;
+  out.phi_star = last > first ? 0.5 * (last - first) : 0.0;
+}
+
+}  // namespace
+
+void measure_invariants(Solution& out, const chain::RodKind& kind) {
+  double h0 = 0.0, torque0 = 0.0;
+  Vector3d balance = Vector3d::Zero();
+  bool first = true;
+  for (const ArcRecord& arc : out.arcs) {
+    for (Eigen::Index k = 0; k < arc.s.size(); ++k) {
+      const Eigen::Matrix3d d = rod::directors(arc.q.col(k));
+      const Vector3d m = d.transpose() * arc.m.col(k);
+      const double h = 0.5 * m.dot(m.cwiseQuotient(kind.stiffness)) + m.dot(kind.natural) + arc.n.col(k).dot(d.col(2));
+      const double torque = (arc.m.col(k) + arc.r.col(k).cross(arc.n.col(k)))(2);
+      if (first) h0 = h, torque0 = torque, first = false;
+      out.invariants.hamiltonian_drift = std::max(out.invariants.hamiltonian_drift, std::abs(h - h0));
+      if (!kind.strut)
+        out.invariants.axial_torque_drift = std::max(out.invariants.axial_torque_drift, std::abs(torque - torque0));
+    }
+    // Contact pressure carried by a line: the change of its internal force.
+    if (arc.kind == ArcKind::line) balance += arc.n.col(arc.n.cols() - 1) - arc.n.col(0);
+  }
+  for (const JointRecord& joint : out.joints)
+    balance -= joint.force * Vector3d(std::sin(joint.angle), -std::cos(joint.angle), 0.0);
+  if (kind.strut) return;
+  balance -= out.arcs.back().n.rightCols<1>() - out.arcs.front().n.col(0);
+  out.invariants.force_residual = balance.norm();
+}
+
+Solution record(RodProblem& problem, const Vector& x, const Vector& p) {
+  const contact::Loads loads = problem.loads(p);
+  const chain::Profile shape = problem.profile(x, p);
+  const scene::Scene scene = problem.scene_at(p);
+  const Topology& topology = problem.topology();
+  Solution out;
+  out.T = loads.tension;
+  out.phi = loads.angle;
+  out.has_cylinder = scene.has_cylinder;
+  out.model = !problem.spatial() ? "planar" : topology.half ? "kirchhoff_half" : "kirchhoff_full";
+  out.converged = true;
+  out.topology = scene.has_cylinder ? topology.text() : "strut";
+  assemble(shape, topology, problem.rod().infinite, out);
+  measure_shape(out);
+  const double copies = topology.half ? 2.0 : 1.0;
+  for (int i = 0; i < problem.chain().link_count(); ++i) {
+    const bvp::Arc& arc = *problem.chain().link(i).arc;
+    out.energy += copies * arc.energy(problem.chain().place(x, loads, i).point());
+    out.mesh.elements += arc.elements();
+    if (arc.elements() > 0) out.mesh.stages = arc.stages();
+  }
+  out.mesh.unknowns = static_cast<int>(problem.chain().size());
+  if (scene.has_cylinder) {
+    out.R_tot = chain::total_contact_force(shape, topology);
+    if (scene.friction) out.F0 = *scene.friction * out.R_tot;
+  } else {
+    const ArcRecord& last = out.arcs.back();
+    out.end_force = -last.n(0, last.n.cols() - 1);
+    out.end_moment = last.m(0, last.m.cols() - 1);
+    out.shortening = 1.0 - (last.r(0, last.r.cols() - 1) - out.arcs.front().r(0, 0)) / scene.rod.length;
+    out.phi_star = 0.0;
+  }
+  measure_invariants(out, problem.rod());
+  out.error_estimate = problem.last_error();
+  out.restart = restart_of(problem, x);
+  return out;
+}
+
+Restart restart_of(const RodProblem& problem, const Vector& x) {
+  nlohmann::json chain;
+  const auto words = [](const std::vector<Stretch>& side) {
+    std::vector<int> out;
+    for (Stretch s : side) out.push_back(static_cast<int>(s));
+    return out;
+  };
+  chain["spatial"] = problem.spatial();
+  chain["half"] = problem.topology().half;
+  chain["mid_touch"] = problem.topology().mid_touch;
+  chain["right"] = words(problem.topology().right);
+  chain["left"] = words(problem.topology().left);
+  for (const auto& mesh : problem.meshes()) chain["meshes"].push_back({{"nodes", mesh.nodes}, {"stages", mesh.stages}});
+  return {chain.dump(), x};
+}
+
+std::shared_ptr<RodProblem> reopen(const scene::Scene& scene, const Restart& restart, std::vector<std::string> keys) {
+  try {
+    const nlohmann::json chain = nlohmann::json::parse(restart.chain);
+    Topology topology;
+    topology.half = chain.at("half");
+    topology.mid_touch = chain.at("mid_touch");
+    for (int k : chain.at("right")) topology.right.push_back(static_cast<Stretch>(k));
+    for (int k : chain.at("left")) topology.left.push_back(static_cast<Stretch>(k));
+    std::vector<chain::ArcMesh> meshes;
+    for (const auto& mesh : chain.at("meshes"))
+      meshes.push_back({mesh.at("nodes").get<std::vector<double>>(), mesh.at("stages").get<int>()});
+    auto problem = std::make_shared<RodProblem>(scene, chain.at("spatial").get<bool>(), topology, meshes, std::move(keys));
+    if (problem->chain().ambient_size() != restart.state.size()) throw std::runtime_error("its state has another size");
+    return problem;
+  } catch (const std::exception& error) {
+    throw std::runtime_error(std::string("the stored point cannot be restarted: ") + error.what());
+  }
+}
+
+}  // namespace windlass::equilibrium

@@ -1,0 +1,280 @@
+#include "windlass/equilibrium/rod_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "windlass/scene/keys.hpp"
+
+namespace windlass::equilibrium {
+
+namespace {
+
+using contact::Loads;
+
+/// Parameters that change loads only; all others rebuild the arcs.
+double Loads::* field_of(const std::string& key) {
+  if (key == "load.tension") return &Loads::tension;
+  if (key == "load.angle") return &Loads::angle;
+  if (key == "load.thrust") return &Loads::thrust;
+  if (key == "ends.shortening") return &Loads::shortening;
+  if (key == "ends.twist") return &Loads::twist;
+  return nullptr;
+}
+
+/// Error levels: the estimate is doubled, so that it bounds the change under refinement where orders compete, and
+/// never claims less than rounding leaves.
+constexpr double safety = 2.0, rounding = 2e-14;
+
+}  // namespace
+
+Loads loads_of(const scene::Scene& scene) {
+  Loads loads;
+  loads.tension = scene.load.tension;
+  loads.angle = scene.load.angle;
+  loads.half_length = scene.rod.infinite() ? 0.0 : 0.5 * scene.rod.length;
+  loads.thrust = scene.load.thrust.value_or(0.0);
+  loads.shortening = scene.ends.shortening.value_or(0.0);
+  loads.twist = scene.ends.twist;
+  return loads;
+}
+
+chain::RodKind rod_of(const scene::Scene& scene, bool spatial) {
+  chain::RodKind rod;
+  rod.spatial = spatial;
+  rod.clamped = scene.ends.kind == scene::EndKind::clamped;
+  rod.infinite = scene.rod.infinite();
+  rod.strut = !scene.has_cylinder;
+  rod.under_thrust = !scene.ends.shortening.has_value();
+  rod.bending_stiffness = scene.rod.bending_stiffness;
+  rod.stiffness = {scene.rod.bending_stiffness, scene.rod.bending_stiffness_2,
+                   scene.rod.twist_ratio * scene.rod.bending_stiffness};
+  rod.natural = {scene.rod.natural_curvature, 0.0, scene.rod.natural_twist};
+  return rod;
+}
+
+RodProblem::RodProblem(scene::Scene scene, bool spatial, Topology topology, std::vector<chain::ArcMesh> meshes,
+                       std::vector<std::string> keys)
+    : scene_(std::move(scene)), spatial_(spatial), topology_(std::move(topology)), meshes_(std::move(meshes)),
+      keys_(std::move(keys)) {
+  for (const std::string& key : keys_) fields_.push_back(field_of(key));
+  rebuild();
+}
+
+void RodProblem::rebuild() {
+  rod_ = rod_of(scene_, spatial_);
+  base_ = loads_of(scene_);
+  chain_ = chain::build_chain(rod_, topology_, meshes_);
+  finer_.reset();
+}
+
+Loads RodProblem::loads(const Vector& p) {
+  bool changed = false;
+  for (std::size_t k = 0; k < keys_.size(); ++k) {
+    if (fields_[k]) continue;
+    if (scene::get_parameter(scene_, keys_[k]) == p(k)) continue;
+    scene::set_parameter(scene_, keys_[k], p(k));
+    changed = true;
+  }
+  if (changed) {
+    // Lengths live in the loads; only stiffness and natural strains are built into the arcs.
+    const chain::RodKind rod = rod_of(scene_, spatial_);
+    const bool arcs = rod.stiffness != rod_.stiffness || rod.natural != rod_.natural;
+    base_ = loads_of(scene_);
+    if (arcs) rebuild();
+  }
+  Loads loads = base_;
+  for (std::size_t k = 0; k < keys_.size(); ++k)
+    if (fields_[k]) loads.*fields_[k] = p(k);
+  if (scene_.has_cylinder && !(loads.tension > 0.0)) throw std::domain_error("the tension is not positive");
+  return loads;
+}
+
+Vector RodProblem::parameters() const {
+  Vector p(keys_.size());
+  for (std::size_t k = 0; k < keys_.size(); ++k) p(k) = scene::get_parameter(scene_, keys_[k]);
+  return p;
+}
+
+scene::Scene RodProblem::scene_at(const Vector& p) const {
+  scene::Scene scene = scene_;
+  for (std::size_t k = 0; k < keys_.size(); ++k) scene::set_parameter(scene, keys_[k], p(k));
+  return scene;
+}
+
+Vector RodProblem::residual(const Vector& x, const Vector& p) { return chain_->residual(x, loads(p)); }
+
+void RodProblem::factor(const Vector& x, const Vector& p, const Eigen::MatrixXd& b, const Eigen::MatrixXd& c,
+                        const Eigen::MatrixXd& d) {
+  chain_->factor(x, loads(p), b, c, d);
+}
+
+int RodProblem::index(const Vector& x, const Vector& p) {
+  const Loads at = loads(p);
+  return chain_->index(x, at, contact::Parity::even) + chain_->index(x, at, contact::Parity::odd);
+}
+
+double RodProblem::inner(const Vector& a, const Vector& b) const {
+  // Contact places and arclengths by their sum, the shape by its mean: path length must not depend on the mesh.
+  // Forces follow from the rest and would swamp it at high tension.
+  const Eigen::Index dense = chain_->geometric_size(), rest = a.size() - chain_->dense_size();
+  double sum = a.head(dense).dot(b.head(dense));
+  if (rest > 0) sum += a.tail(rest).dot(b.tail(rest)) / static_cast<double>(rest);
+  return sum;
+}
+
+Vector RodProblem::dual(const Vector& a) const {
+  Vector row = Vector::Zero(a.size());
+  const Eigen::Index dense = chain_->geometric_size(), rest = a.size() - chain_->dense_size();
+  row.head(dense) = a.head(dense);
+  if (rest > 0) row.tail(rest) = a.tail(rest) / static_cast<double>(rest);
+  return row;
+}
+
+chain::Profile RodProblem::profile(const Vector& x, const Vector& p) {
+  return chain::profile(*chain_, topology_, rod_, x, loads(p));
+}
+
+int RodProblem::polish(Vector& x, const Vector& p, int most) {
+  const Loads at = loads(p);
+  const Eigen::MatrixXd none(chain_->size(), 0), corner(0, 0);
+  double last = 1e300;
+  for (int k = 0; k < most; ++k) {
+    const Vector f = chain_->residual(x, at);
+    if (!f.allFinite()) return -1;
+    chain_->factor(x, at, none, none, corner);
+    const Vector dx = chain_->solve(-f, Vector(0));
+    const double step = dx.cwiseAbs().maxCoeff();
+    if (!std::isfinite(step) || (k > 4 && step > 1e3)) return -1;
+    const double scale = std::max(1.0, x.cwiseAbs().maxCoeff());
+    x = chain_->retract(x, step > 0.6 ? Vector(dx * (0.6 / step)) : dx);
+    // Converged, or as far as rounding lets it: the increment is tiny and no longer falls.
+    if (step < 1e-12 * scale || (step < 1e-9 * scale && step > 0.3 * last)) return k;
+    last = step;
+  }
+  return -1;
+}
+
+double RodProblem::target(const chain::Chain& chain, const Vector& x, const Loads& at) const {
+  if (!rod_.strut) return chain::total_contact_force(chain::profile(chain, topology_, rod_, x, at), topology_);
+  return -chain.force(x, at, chain.link_count() - 1)(0);
+}
+
+double RodProblem::error_estimate(const Vector& x, const Vector& p) {
+  const Loads at = loads(p);
+  bool meshed = false;
+  for (int i = 0; i < chain_->link_count(); ++i) meshed |= chain_->link(i).arc->elements() > 0;
+  if (!meshed) return last_error_ = rounding;
+  if (!finer_) {
+    std::vector<chain::ArcMesh> finer = meshes_;
+    for (auto& mesh : finer) ++mesh.stages;
+    finer_ = chain::build_chain(rod_, topology_, finer);
+  }
+  Vector fine = chain::transfer_state(*chain_, *finer_, x, at);
+  const double before = target(*chain_, x, at);
+  const Eigen::MatrixXd none(finer_->size(), 0);
+  finer_->factor(fine, at, none, none, Eigen::MatrixXd(0, 0));
+  const Vector dx = finer_->solve(-finer_->residual(fine, at), Vector(0));
+  fine = finer_->retract(fine, dx);
+  const double after = target(*finer_, fine, at), scale = std::max(std::abs(after), 1e-3);
+  return last_error_ = safety * std::abs(after - before) / scale + rounding;
+}
+
+std::vector<chain::ArcMesh> RodProblem::new_meshes(const Vector& x, const Loads& at, double growth) const {
+  std::vector<chain::ArcMesh> out = meshes_;
+  double total = 0.0;
+  int elements = 0;
+  std::vector<std::vector<double>> weights(meshes_.size());
+  for (int i = 0; i < chain_->link_count(); ++i) {
+    const bvp::Arc& arc = *chain_->link(i).arc;
+    if (arc.elements() == 0) continue;
+    const chain::Chain::Placed placed = chain_->place(x, at, i);
+    for (double c : arc.resolution(placed.point())) {
+      // Each element's share of the error density; the floor keeps smooth stretches meshed.
+      weights[i].push_back(std::pow(c + 1e-9, 1.0 / arc.stages()));
+      total += weights[i].back();
+    }
+    elements += arc.elements();
+  }
+  const double goal = std::clamp(growth, 0.4, 2.5) * elements;
+  for (std::size_t i = 0; i < meshes_.size(); ++i) {
+    if (weights[i].empty()) continue;
+    double sum = 0.0;
+    for (double w : weights[i]) sum += w;
+    const int count = std::clamp(static_cast<int>(std::ceil(goal * sum / total)), 2, 400);
+    const std::vector<double>& old = meshes_[i].nodes;
+    std::vector<double> mesh{0.0};
+    std::size_t e = 0;
+    double before = 0.0;
+    for (int k = 1; k < count; ++k) {
+      const double want = sum * k / count;
+      while (e + 1 < weights[i].size() && before + weights[i][e] < want) before += weights[i][e++];
+      mesh.push_back(old[e] + (old[e + 1] - old[e]) * (want - before) / weights[i][e]);
+    }
+    mesh.push_back(1.0);
+    out[i].nodes = mesh;
+  }
+  return out;
+}
+
+Vector RodProblem::refine(Vector x, const Vector& p, int rounds) {
+  const double goal = scene_.model.tolerance;
+  for (int k = 0; k < rounds; ++k) {
+    const double error = error_estimate(x, p);
+    if (error <= goal && (k > 0 || error > 1e-4 * goal || error <= 10.0 * rounding)) return x;
+    const Loads at = loads(p);
+    const double order = 2.0 * meshes_.back().stages;
+    meshes_ = new_meshes(x, at, std::pow(error / (0.1 * goal), 1.0 / order));
+    std::unique_ptr<chain::Chain> old = std::move(chain_);
+    rebuild();
+    x = chain::transfer_state(*old, *chain_, x, at);
+    if (polish(x, p) < 0) throw std::runtime_error("Newton failed after the mesh was adapted");
+  }
+  error_estimate(x, p);
+  return x;
+}
+
+std::optional<Vector> RodProblem::adapt(const Vector& x, const Vector& p) {
+  const double goal = scene_.model.tolerance;
+  const double error = error_estimate(x, p);
+  if (error <= goal) return std::nullopt;
+  const Loads at = loads(p);
+  const double order = 2.0 * meshes_.back().stages;
+  std::vector<chain::ArcMesh> old_meshes = meshes_;
+  meshes_ = new_meshes(x, at, std::pow(error / (0.03 * goal), 1.0 / order));
+  const std::unique_ptr<chain::Chain> old = std::move(chain_);
+  rebuild();
+  Vector fresh = chain::transfer_state(*old, *chain_, x, at);
+  if (polish(fresh, p) < 0) {  // keep what works
+    meshes_ = old_meshes;
+    rebuild();
+    return std::nullopt;
+  }
+  error_estimate(fresh, p);
+  return fresh;
+}
+
+std::shared_ptr<continuation::Problem> RodProblem::clone() const {
+  auto copy = std::make_shared<RodProblem>(scene_, spatial_, topology_, meshes_, keys_);
+  copy->last_error_ = last_error_;
+  return copy;
+}
+
+Vector RodProblem::fingerprint(const Vector& x, const Vector& p) {
+  const Loads at = loads(p);
+  const chain::Profile shape = profile(x, p);
+  double energy = 0.0, z_low = 0.0, z_high = 0.0, tilt = 0.0, nearest = 1e300;
+  for (int i = 0; i < chain_->link_count(); ++i)
+    energy += chain_->link(i).arc->energy(chain_->place(x, at, i).point());
+  for (const chain::Piece& piece : shape.pieces) {
+    z_low = std::min(z_low, piece.r.row(2).minCoeff());
+    z_high = std::max(z_high, piece.r.row(2).maxCoeff());
+    for (Eigen::Index k = 0; k < piece.s.size(); ++k)
+      if (std::abs(piece.s(k)) < nearest) nearest = std::abs(piece.s(k)), tilt = std::abs(piece.inclination(k));
+  }
+  Vector print(5);
+  print << target(*chain_, x, at), energy, z_high - z_low, tilt, static_cast<double>(shape.contacts.size());
+  return print;
+}
+
+}  // namespace windlass::equilibrium
