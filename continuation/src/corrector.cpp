@@ -63,10 +63,13 @@ class Newton {
       defect_ = borders_.g - borders_.c.transpose() * it_.u - borders_.d * it_.y;
       report_.residual = residual_.size() ? residual_.lpNorm<Eigen::Infinity>() : 0.0;
       if (!std::isfinite(report_.residual)) throw std::runtime_error("the residual is not finite");
-      const double tolerance = options_.newton_tolerance * std::max(1.0, rms(it_.x));
+      const double tolerance = options_.newton_tolerance;
+      // What rounding may leave where the state has large entries; taken only once corrections no longer shrink.
+      const double rounding = tolerance * std::max(1.0, rms(it_.x));
       bool fresh = k == 0;
       if (fresh) factor();
       direction();
+      bool stagnant = false;
       if (k > 0) {
         double contraction = size_ / previous;
         if (k == 1) report_.contraction = contraction;
@@ -76,11 +79,13 @@ class Newton {
           fresh = true;
           contraction = size_ / previous;
         }
-        if (contraction > 1.0 && size_ > 10.0 * tolerance)
+        if (contraction > 1.0 && size_ > 10.0 * rounding)
           throw std::runtime_error("Newton's corrections grow");
+        stagnant = contraction > 0.2;
       }
       report_.increment = size_;
-      const bool done = size_ <= tolerance && report_.residual <= options_.residual_tolerance;
+      const bool small = size_ <= tolerance || (stagnant && size_ <= rounding);
+      const bool done = small && report_.residual <= options_.residual_tolerance;
       // At roundoff the state is left alone, so that the factorisation belongs to it exactly.
       if (done && fresh && size_ <= 1e-3 * tolerance) {
         report_.factored_here = true;

@@ -94,6 +94,17 @@ BOOST_AUTO_TEST_CASE(corrector_converges_and_reuses_factorisations) {
   BOOST_TEST(std::abs(it.u[0] - (it.x[0] - 2.001)) < 1e-15);
 }
 
+BOOST_AUTO_TEST_CASE(rounding_of_a_large_state_is_not_a_failure) {
+  // x = 3.3e7: an ulp of x² moves x by 4e-9, more than the tolerance, so that corrections stagnate.
+  auto problem = scalar([](double x, const Vector& p) { return 1e-15 * (x * x - 3.3e7 * 3.3e7 * p[0]); });
+  Iterate it{vector({3.1e7}), vector({0.0}), vector({1.0}), vector({0.0})};
+  Options options;
+  options.max_newton = 12;
+  const auto report = correct(*problem, fixed(0.0), it, options);
+  BOOST_TEST(report.converged);
+  BOOST_TEST(std::abs(it.x[0] / 3.3e7 - 1.0) < 1e-14);
+}
+
 BOOST_AUTO_TEST_CASE(corrector_reports_failures) {
   auto none = scalar([](double x, const Vector& p) { return x * x + 1.0 + p[0]; });
   Iterate it{vector({1.0}), vector({0.0}), vector({0.0}), vector({0.0})};

@@ -21,7 +21,8 @@ struct Options {
   int max_points = 2000;         ///< accepted points, special ones not counted
   double max_angle = 1.0;        ///< [rad] largest turn of the tangent in one step, in (0, π/2)
 
-  double newton_tolerance = 1e-10;   ///< on the increment, in the metric, relative to max(1, rms x)
+  double newton_tolerance =
+      1e-10;  ///< on the increment, in the metric; times max(1, rms x) once it stagnates
   double residual_tolerance = 1e-8;  ///< on max |F|, checked before the last increment is added
   int max_newton = 8;                ///< corrections allowed in one solve
   int target_newton = 4;             ///< corrections (chord ones included) the step length aims at
