@@ -1,0 +1,118 @@
+#include "windlass/equilibrium/discovery.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+
+using namespace windlass;
+using equilibrium::Discovery;
+using equilibrium::DiscoveryOptions;
+using equilibrium::Stretch;
+
+BOOST_AUTO_TEST_SUITE(discovery)
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Discovery discover(double angle, double tension, int elements = 80, bool clamped = false) {
+  contact::Loads loads;
+  loads.angle = angle;
+  loads.tension = tension;
+  loads.half_length = 15.0;
+  DiscoveryOptions options;
+  options.elements = elements;
+  options.clamped = clamped;
+  return equilibrium::discover_contacts(loads, options);
+}
+
+/// (2T − 1) φ* + √(4T − 1) of an infinite rod in line contact.
+double line_contact_total(double angle, double tension) {
+  const double phi_star = 0.5 * angle - std::acos(1.0 - 0.5 / tension);
+  return (2.0 * tension - 1.0) * phi_star + std::sqrt(4.0 * tension - 1.0);
+}
+
+/// Gap and force are non-negative and never both positive; the pulls balance the contact forces.
+void check_physics(const Discovery& d, double angle, double tension) {
+  BOOST_TEST_REQUIRE(d.converged);
+  double vertical = 0.0;
+  for (std::size_t k = 0; k < d.s.size(); ++k) {
+    BOOST_TEST(d.gap[k] > -1e-6);
+    BOOST_TEST(d.force[k] >= 0.0);
+    BOOST_TEST(std::min(d.gap[k], d.force[k]) < 1e-6);
+    vertical += 2.0 * d.force[k] * d.y[k] / (1.0 + d.gap[k]);
+  }
+  BOOST_TEST(std::abs(vertical + 2.0 * tension * std::sin(0.5 * angle)) < 1e-6);
+  double total = 0.0;
+  for (const Stretch& stretch : d.stretches) total += 2.0 * stretch.force;
+  BOOST_TEST(std::abs(total - d.R_tot) < 1e-6);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(line_contact_meets_the_closed_form) {
+  for (const double turns : {1.0, 2.0}) {
+    const double angle = 2.0 * pi * turns, exact = line_contact_total(angle, 1.0);
+    const Discovery d = discover(angle, 1.0);
+    check_physics(d, angle, 1.0);
+    BOOST_TEST(std::abs(d.R_tot / exact - 1.0) < 2e-3);
+    BOOST_TEST_REQUIRE(d.stretches.size() == 1u);
+    const Stretch& line = d.stretches.front();
+    BOOST_TEST((line.kind == Stretch::Kind::line));
+    BOOST_TEST(line.s_begin == 0.0);
+    BOOST_TEST(std::abs(line.s_end - (0.5 * angle - std::acos(0.5))) < 0.1);
+    BOOST_TEST(std::abs(line.angle_end - line.s_end) < 1e-3);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_error_falls_with_the_mesh) {
+  const double exact = line_contact_total(2.0 * pi, 1.0);
+  double last = 1.0;
+  for (const int elements : {20, 40, 80, 160}) {
+    const double error = std::abs(discover(2.0 * pi, 1.0, elements).R_tot / exact - 1.0);
+    BOOST_TEST_MESSAGE(elements << " elements: relative error of R_tot " << error);
+    BOOST_TEST(error < 0.5 * last);
+    last = error;
+  }
+  BOOST_TEST(last < 2e-4);
+}
+
+BOOST_AUTO_TEST_CASE(a_weak_pull_at_a_small_angle_touches_once) {
+  for (const bool clamped : {false, true}) {
+    const Discovery d = discover(0.5 * pi, 0.3, 80, clamped);
+    check_physics(d, 0.5 * pi, 0.3);
+    BOOST_TEST(std::abs(d.R_tot - 0.6 * std::sin(0.25 * pi)) < 1e-6);
+    BOOST_TEST_REQUIRE(d.stretches.size() == 1u);
+    BOOST_TEST((d.stretches.front().kind == Stretch::Kind::touch));
+    BOOST_TEST(d.stretches.front().s_begin == 0.0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(below_the_line_limit_a_coil_touches_at_its_sides) {
+  // The pulls of the 2 pi coil are horizontal and cancel: only forces along x, at ±pi/2, balance.
+  const Discovery d = discover(2.0 * pi, 0.4);
+  check_physics(d, 2.0 * pi, 0.4);
+  BOOST_TEST_REQUIRE(d.stretches.size() == 1u);
+  const Stretch& touch = d.stretches.front();
+  BOOST_TEST((touch.kind == Stretch::Kind::touch));
+  BOOST_TEST(std::abs(touch.angle_begin - 0.5 * pi) < 1e-3);
+  BOOST_TEST(d.gap.front() > 1e-3);
+}
+
+BOOST_AUTO_TEST_CASE(two_turns_below_the_line_limit) {
+  const Discovery d = discover(4.0 * pi, 0.45);
+  check_physics(d, 4.0 * pi, 0.45);
+  for (const Stretch& stretch : d.stretches)
+    BOOST_TEST_MESSAGE((stretch.kind == Stretch::Kind::line ? "line " : "touch ")
+                       << stretch.angle_begin / pi << " pi, force " << stretch.force);
+  BOOST_TEST(!d.stretches.empty());
+}
+
+BOOST_AUTO_TEST_CASE(wrong_arguments_name_the_bound) {
+  BOOST_CHECK_THROW(discover(2.0 * pi, 0.0), std::invalid_argument);
+  BOOST_CHECK_THROW(discover(-1.0, 1.0), std::invalid_argument);
+  BOOST_CHECK_THROW(discover(40.0, 1.0), std::invalid_argument);
+  BOOST_CHECK_THROW(discover(2.0 * pi, 1.0, 3), std::invalid_argument);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
