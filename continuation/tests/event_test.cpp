@@ -228,6 +228,7 @@ BOOST_AUTO_TEST_CASE(ping_pong_is_not_endless) {
   Walker walker(a, vector({0.0}), vector({0.0}), options);
   BOOST_TEST(walk(walker).size() < 250u);
   BOOST_TEST(static_cast<bool>(walker.end()));
+  a->transition_of = b->transition_of = {};  // they own each other
 }
 
 BOOST_AUTO_TEST_SUITE_END()
