@@ -24,7 +24,7 @@ class NodalRod {
   const std::vector<double>& s() const { return s_; }
   double tension() const { return loads_.tension; }
   void set_tension(double tension) { loads_.tension = tension; }
-  /// Node pairs closer to touching than this are one contact: the discrete edge of a line lifts off by O(h³).
+  /// Nodes lifted by less than this do not part a contact in two: just inside a line's edge some rise by O(h³).
   double near_contact() const { return 0.5 * length(0) * length(0); }
   /// Number of nodes within reach of the cylinder; those of the coarse tail come after.
   int near_nodes() const { return near_nodes_; }

@@ -10,7 +10,7 @@ namespace windlass::stability {
 
 /// Finite eigenpairs K v = μ M v of a second variation, K indefinite (multipliers), M positive semidefinite.
 struct Spectrum {
-  Eigen::VectorXd eigenvalues;   ///< μ ascending; at least the asked number, or all there are [1/ρ² · EI]
+  Eigen::VectorXd eigenvalues;   ///< μ ascending; at least the asked number, or all there are [EI/ρ²]
   Eigen::MatrixXd eigenvectors;  ///< one column each, vᵀMv = 1, largest entry positive; size of K × count
   int index = 0;                 ///< negative eigenvalues found; zero to rounding counts as positive
   int inertia_index = 0;         ///< the same from the inertia of K: its negative pivots less `constraints`
