@@ -1,4 +1,5 @@
 #include <boost/test/unit_test.hpp>
+#include <chrono>
 
 #include "closed_form_rods.hpp"
 #include "windlass/verify/certificate.hpp"
@@ -41,6 +42,25 @@ BOOST_AUTO_TEST_CASE(a_tail_of_a_thousand_decay_lengths_passes) {
   const Certificate certificate =
       verify::verify(planar_capstan(4.0, two_pi, 1000.0, 4001), capstan_scene(4.0, two_pi));
   BOOST_TEST(certificate.passed(), verify::to_text(certificate));
+}
+
+BOOST_AUTO_TEST_CASE(a_line_contact_with_samples_at_its_ends_only_passes) {
+  // 60 growth lengths between the two samples
+  auto solution = planar_capstan(100.0, two_pi);
+  auto& line = solution.arcs[1];
+  const auto keep_ends = [](auto& columns) {
+    const auto last = columns.rightCols(1).eval();
+    columns.conservativeResize(Eigen::NoChange, 2);
+    columns.rightCols(1) = last;
+  };
+  line.s = Eigen::Vector2d(line.s_begin, line.s_end);
+  line.p = line.p.head(2).eval();
+  keep_ends(line.r), keep_ends(line.q), keep_ends(line.n), keep_ends(line.m);
+  const auto begin = std::chrono::steady_clock::now();
+  const Certificate certificate = verify::verify(solution, capstan_scene(100.0, two_pi));
+  BOOST_TEST(certificate.passed(), verify::to_text(certificate));
+  BOOST_TEST_MESSAGE(
+      "seconds: " << std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
 }
 
 BOOST_AUTO_TEST_CASE(endless_helix_satisfies_the_surface_equations) {
