@@ -1,9 +1,54 @@
-#include <stdexcept>
+#include <cstdio>
 
 #include "app/commands.hpp"
+#include "windlass/equilibrium/record.hpp"
+#include "windlass/output/run_folder.hpp"
+#include "windlass/petsc/session.hpp"
+#include "windlass/scene/keys.hpp"
+#include "windlass/stability/analysis.hpp"
 
 namespace windlass::app {
 
-int run_stability(const RunRequest&) { throw std::runtime_error("stability: not available in this version"); }
+int run_stability(const RunRequest& request) {
+  petsc::ensure_session();
+  const scene::Scene scene = scene_of_run(request.run, request.common);
+  const output::Run run = output::read_run(request.run);
+  output::RunWriter writer = output::RunWriter::resume(request.run);
+  stability::SpectrumSolver solver;
+  nlohmann::ordered_json report;
+  bool disagreement = false, found = false;
+  for (std::size_t k = 0; k < run.points.size(); ++k) {
+    const auto& key = run.points.keys()[k];
+    const std::string name = output::point_name(key.branch, key.point, key.label);
+    if (!request.label.empty() && request.label != name) continue;
+    found = true;
+    const equilibrium::Solution stored = run.points.get(k);
+    scene::Scene at = scene;
+    if (stored.has_cylinder) at.load.tension = stored.T, at.load.angle = stored.phi;
+    if (!stored.has_cylinder && at.ends.shortening) at.ends.shortening = stored.shortening;
+    const std::string parameter = stored.has_cylinder ? "load.tension" : at.ends.shortening ? "ends.shortening" : "load.thrust";
+    auto problem = equilibrium::reopen(at, stored.restart, {parameter});
+    const equilibrium::Stability stability = stability::analyse(*problem, stored.restart.state, problem->parameters(),
+                                                                request.eigenvalues, true, solver);
+    writer.set_stability(name, stability);
+    disagreement |= stability.index != stability.inertia_index;
+    nlohmann::ordered_json entry = {{"name", name}, {"index", stability.index},
+                                    {"inertia_index", stability.inertia_index},
+                                    {"eigenvalues", stability.eigenvalues}};
+    if (!request.common.json && !request.common.quiet) {
+      std::printf("%-8s index %d (inertia %d) ", name.c_str(), stability.index, stability.inertia_index);
+      for (double value : stability.eigenvalues) std::printf(" %.8g", value);
+      if (!stability.modes.empty())
+        std::printf("  lowest: %s-of-plane, %s", stability.modes[0].plane.c_str(), stability.modes[0].parity.c_str());
+      std::printf("\n");
+    }
+    report["points"].push_back(entry);
+  }
+  if (!request.label.empty() && !found) run.points.get(request.label);  // throws, listing what there is
+  writer.commit();
+  if (request.common.json) std::printf("%s\n", report.dump(2).c_str());
+  if (disagreement) std::fprintf(stderr, "windlass: at some points SLEPc and the inertia disagree on the index\n");
+  return disagreement ? not_finished : done;
+}
 
 }  // namespace windlass::app

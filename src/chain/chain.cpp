@@ -1,6 +1,7 @@
 #include "windlass/chain/chain.hpp"
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "windlass/rod/quaternion.hpp"
@@ -65,7 +66,8 @@ Chain::Numbering Chain::number(Purpose purpose) const {
     // because moving it costs nothing to second order.
     const bool kept = joint.locates() && (purpose == Purpose::equilibrium || joint.kind() == JointKind::touch);
     n.arclength.push_back(kept ? n.size++ : -1);
-    n.constraints += kept;
+    // A touch at the symmetry point holds its location (sliding is pinned), but its direction of maximum counts.
+    n.constraints += kept || (odd_end && joint.kind() == JointKind::touch);
   }
   n.geometric = n.size;
   for (const Link& link : links_) {
@@ -104,7 +106,11 @@ Chain::Placed Chain::place(const VectorXd& x, const Loads& loads, int link) cons
   p.interior = interior(x, link);
   p.length = arclength(x, loads, link + 1) - arclength(x, loads, link);
   if (std::isinf(p.length)) p.length = tail_decay_lengths / std::sqrt(p.n.norm());
-  if (!(p.length > 0.0)) throw std::domain_error("an arc's length is not positive");
+  // Between contacts the equations hold, analytically, for lengths past zero too, so that the event can be located
+  // from both sides; only zero itself is singular. A tail must exist.
+  const double shortest = links_[link].pull != 0 ? 0.0 : -std::numeric_limits<double>::infinity();
+  if (!(p.length > shortest) || std::abs(p.length) < 1e-14)
+    throw std::domain_error("an arc's length is not positive");
   return p;
 }
 
@@ -159,6 +165,17 @@ VectorXd Chain::residual(const VectorXd& x, const Loads& loads) const {
     if (numbering_.arclength[j] >= 0) f(numbering_.arclength[j]) = location(x, j).value;
   }
   return f;
+}
+
+double Chain::nodal_norm(const VectorXd& dx) const {
+  double largest = dx.head(geometric_size_).lpNorm<Eigen::Infinity>();
+  for (int i = 0; i < link_count(); ++i) {
+    const Arc& arc = *links_[i].arc;
+    const int d = arc.tangent();
+    for (int e = 1; e < arc.elements(); ++e)
+      largest = std::max(largest, dx.segment(interior_row_[i] + (e * arc.stages() - 1) * d, d).cwiseAbs().maxCoeff());
+  }
+  return largest;
 }
 
 VectorXd transfer_state(const Chain& from, const Chain& to, const VectorXd& x, const Loads& loads) {

@@ -126,14 +126,20 @@ std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& st
   const int i = event.place;
   const double begin = strip.s[i], end = strip.s[i + 1], length = end - begin;
   const bool at_mid = strip.half && i == 0;
-  Strip open = strip;  // the whole line lifts at once
+  Strip open = strip;  // the whole line lifts at once, on both sides of a full chain's mid-point
   open.kinds[i] = Stretch::gap;
+  const int twin = strip.half ? i : i == strip.marker ? i - 1 : i + 1 == strip.marker ? i + 1 : i;
+  open.kinds[twin] = Stretch::gap;
   const bool uniform = line.p.maxCoeff() < 1e-6;
   if (uniform) out.push_back(successor_of(open));
   for (const double part : {0.1, 0.25, 0.5}) {
     Strip inner = strip;
     if (at_mid && event.s < begin + 0.02 * length) {
       split(inner, i, begin + part * length, Stretch::gap, Stretch::line);
+    } else if (twin != i && std::abs(event.s) < 0.02 * length) {
+      const int left = strip.marker - 1;
+      split(inner, left + 1, strip.s[left + 1] + part * length, Stretch::gap, Stretch::line);
+      split(inner, left, strip.s[left + 1] - part * length, Stretch::line, Stretch::gap);
     } else {
       const double half_gap = part * std::min(event.s - begin, end - event.s);
       if (half_gap < 1e-3 * length) break;
@@ -178,11 +184,7 @@ std::vector<Successor> after_length(const ContactEvent& event, Strip strip) {
     merge(strip, i - 1, i + 1, Stretch::line);
     out.push_back(successor_of(strip));
   } else {  // line – gap – touch: the touch joins the line
-    const int into = before == Stretch::line ? i - 1 : i + 1;
-    (void)into;
-    if (before == Stretch::line) {
-      strip.s[i] = strip.s[i + 1];
-    }
+    if (before == Stretch::line) strip.s[i] = strip.s[i + 1];
     strip.kinds.erase(strip.kinds.begin() + i);
     strip.source.erase(strip.source.begin() + i);
     strip.s.erase(strip.s.begin() + i + 1);
@@ -251,7 +253,11 @@ std::vector<Successor> successors(const ContactEvent& event, const Profile& prof
                                   const std::vector<double>& s) {
   const Strip strip = strip_of(topology, s);
   switch (event.kind) {
-    case Kind::pressure: return after_pressure(event, strip, profile.pieces[event.place]);
+    case Kind::pressure: {
+      // A line that shrinks to nothing as its pressure vanishes (phi = pi) leaves a touch.
+      if (std::abs(s[event.place + 1] - s[event.place]) < 1e-4) return after_length(event, strip);
+      return after_pressure(event, strip, profile.pieces[event.place]);
+    }
     case Kind::length: return after_length(event, strip);
     case Kind::force: return after_force(event, strip);
     case Kind::curvature: return after_curvature(event, strip, profile);

@@ -26,6 +26,9 @@ double Loads::* field_of(const std::string& key) {
 /// never claims less than rounding leaves.
 constexpr double safety = 2.0, rounding = 2e-14;
 
+/// Every stored point must pass `verify`, whose bounds on frames, moments and positions are 1e-9.
+constexpr double certificate_level = 1e-9;
+
 }  // namespace
 
 Loads loads_of(const scene::Scene& scene) {
@@ -164,6 +167,7 @@ double RodProblem::error_estimate(const Vector& x, const Vector& p) {
   const Loads at = loads(p);
   bool meshed = false;
   for (int i = 0; i < chain_->link_count(); ++i) meshed |= chain_->link(i).arc->elements() > 0;
+  nodal_error_ = 0.0;
   if (!meshed) return last_error_ = rounding;
   if (!finer_) {
     std::vector<chain::ArcMesh> finer = meshes_;
@@ -175,6 +179,7 @@ double RodProblem::error_estimate(const Vector& x, const Vector& p) {
   const Eigen::MatrixXd none(finer_->size(), 0);
   finer_->factor(fine, at, none, none, Eigen::MatrixXd(0, 0));
   const Vector dx = finer_->solve(-finer_->residual(fine, at), Vector(0));
+  nodal_error_ = finer_->nodal_norm(dx);
   fine = finer_->retract(fine, dx);
   const double after = target(*finer_, fine, at), scale = std::max(std::abs(after), 1e-3);
   return last_error_ = safety * std::abs(after - before) / scale + rounding;
@@ -217,14 +222,19 @@ std::vector<chain::ArcMesh> RodProblem::new_meshes(const Vector& x, const Loads&
   return out;
 }
 
-Vector RodProblem::refine(Vector x, const Vector& p, int rounds) {
+double RodProblem::excess(const Vector& x, const Vector& p) {
   const double goal = scene_.model.tolerance;
+  const double error = error_estimate(x, p);
+  return std::max(error / goal, nodal_error_ / (0.3 * std::min(goal, certificate_level)));
+}
+
+Vector RodProblem::refine(Vector x, const Vector& p, int rounds) {
   for (int k = 0; k < rounds; ++k) {
-    const double error = error_estimate(x, p);
-    if (error <= goal && (k > 0 || error > 1e-4 * goal || error <= 10.0 * rounding)) return x;
+    const double too_large = excess(x, p);
+    if (too_large <= 1.0 && (k > 0 || too_large > 1e-4)) return x;
     const Loads at = loads(p);
     const double order = 2.0 * meshes_.back().stages;
-    meshes_ = new_meshes(x, at, std::pow(error / (0.1 * goal), 1.0 / order));
+    meshes_ = new_meshes(x, at, std::pow(10.0 * too_large, 1.0 / order));
     std::unique_ptr<chain::Chain> old = std::move(chain_);
     rebuild();
     x = chain::transfer_state(*old, *chain_, x, at);
@@ -235,13 +245,12 @@ Vector RodProblem::refine(Vector x, const Vector& p, int rounds) {
 }
 
 std::optional<Vector> RodProblem::adapt(const Vector& x, const Vector& p) {
-  const double goal = scene_.model.tolerance;
-  const double error = error_estimate(x, p);
-  if (error <= goal) return std::nullopt;
+  const double too_large = excess(x, p);
+  if (too_large <= 1.0) return std::nullopt;
   const Loads at = loads(p);
   const double order = 2.0 * meshes_.back().stages;
   std::vector<chain::ArcMesh> old_meshes = meshes_;
-  meshes_ = new_meshes(x, at, std::pow(error / (0.03 * goal), 1.0 / order));
+  meshes_ = new_meshes(x, at, std::pow(30.0 * too_large, 1.0 / order));
   const std::unique_ptr<chain::Chain> old = std::move(chain_);
   rebuild();
   Vector fresh = chain::transfer_state(*old, *chain_, x, at);

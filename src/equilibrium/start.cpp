@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "windlass/equilibrium/contact_events.hpp"
-#include "windlass/rod/quaternion.hpp"
+#include "windlass/rod/capstan.hpp"
 #include "windlass/scene/error.hpp"
 
 namespace windlass::equilibrium {
@@ -25,9 +25,6 @@ bool contacts_hold(RodProblem& problem, const Vector& x, const Vector& p) {
     if (event.value < -1e-9) return false;
   return true;
 }
-
-/// Least tension of a planar line contact with very long tails (PHYSICS), in units of B.
-double line_limit(double angle) { return angle < M_PI ? 0.5 / (1.0 - std::cos(0.5 * angle)) : 0.5; }
 
 ArcMesh mesh_for(Stretch stretch, const Loads& loads, double length) {
   if (stretch == Stretch::tail) return {chain::tail_mesh(loads.tension, length, 10, start_stages), start_stages};
@@ -64,7 +61,7 @@ std::optional<Started> attempt(const scene::Scene& scene, bool spatial, bool hal
 
 /// The draft the closed form suggests: a line contact where it can exist, else one touch at the mid-point.
 Draft closed_form_draft(const Loads& loads, double b) {
-  if (loads.tension > line_limit(loads.angle) * b) {
+  if (loads.tension > rod::capstan::line_limit(loads.angle) * b) {
     const double contact = 0.5 * loads.angle - std::acos(1.0 - 0.5 * b / loads.tension);
     return {{Stretch::line, Stretch::tail}, false, {0.0, contact, loads.half_length}};
   }
@@ -75,7 +72,7 @@ Draft closed_form_draft(const Loads& loads, double b) {
 std::optional<Started> by_continuation(const scene::Scene& scene, bool spatial, bool half,
                                        const std::vector<std::string>& keys, std::string& failure) {
   scene::Scene tight = scene;
-  tight.load.tension = std::max({1.5 * line_limit(scene.load.angle), 1.0, scene.load.tension});
+  tight.load.tension = std::max({1.5 * rod::capstan::line_limit(scene.load.angle), 1.0, scene.load.tension});
   const std::vector<std::string> path{"load.tension"};
   std::optional<Started> from;
   for (int k = 0; k < 6 && !from; ++k, tight.load.tension *= 1.6) {

@@ -68,7 +68,7 @@ class Chain {
     double length = 0.0;
     bvp::ArcPoint point() const { return {left.q.data(), right.q.data(), interior, n.data(), length}; }
   };
-  /// @throws std::domain_error if the arc's length is not positive.
+  /// @throws std::domain_error if the arc's length is zero, or a tail's is not positive.
   Placed place(const VectorXd& x, const Loads& loads, int link) const;
 
   VectorXd retract(const VectorXd& x, const VectorXd& dx) const;
@@ -90,6 +90,9 @@ class Chain {
     int constraints = 0;                  ///< negative directions owed to multipliers and to touch locations
   };
   SecondVariation second_variation(const VectorXd& x, const Loads& loads, contact::Parity parity) const;
+
+  /// Largest entry of an increment at the joints and at element ends, where collocation is superconvergent.
+  double nodal_norm(const VectorXd& dx) const;
 
   /// The increment's part of a vector of that space (zero where the two differ: odd coordinates), to draw a mode.
   VectorXd as_increment(const VectorXd& variation, contact::Parity parity) const;

@@ -18,8 +18,4 @@ std::shared_ptr<RodProblem> reopen(const scene::Scene& scene, const Restart& res
 /// Largest drift of the invariants along the rod and the residual of the force balance; fills solution.invariants.
 void measure_invariants(Solution& solution, const chain::RodKind& kind);
 
-/// Total contact force etc. from the closed form alone (model "closed_form"). @throws std::domain_error below the
-/// limit of line contact
-Solution closed_form_solution(const scene::Scene& scene);
-
 }  // namespace windlass::equilibrium

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "windlass/equilibrium/rod_problem.hpp"
 #include "windlass/equilibrium/solution.hpp"
 
@@ -29,6 +31,10 @@ Started lift(RodProblem& planar, const Vector& x, const Vector& p, bool half);
 
 /// The full chain of a symmetric state. @throws NoEquilibrium
 Started unfold(RodProblem& halved, const Vector& x, const Vector& p, int iterations);
+
+/// A stable state near an unstable flat one: found on the arms of the branch points met on the way down from a tension at
+/// which the flat state is stable. nullopt if there is none.
+std::optional<Started> stable_neighbour(Started& unstable);
 
 /// `solve`: climbs the rungs closed form, planar, Kirchhoff half, Kirchhoff full as far as the scene needs; the result
 /// names the rung and the reason. @throws NoEquilibrium

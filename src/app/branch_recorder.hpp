@@ -1,0 +1,48 @@
+#pragma once
+
+#include <chrono>
+#include <continuation/diagram.hpp>
+#include <set>
+
+#include "app/progress.hpp"
+#include "windlass/output/run_folder.hpp"
+#include "windlass/stability/analysis.hpp"
+
+namespace windlass::app {
+
+/// Writes a growing diagram into its run folder, point by point, and keeps the clock: time spent computing branches and
+/// time spent on spectra are told apart from time spent writing.
+class BranchRecorder final : public continuation::DiagramObserver {
+ public:
+  /// @param fixed  fraction of points that get eigenvalues from SLEPc: special points always, others if `spectra`
+  BranchRecorder(output::RunWriter& writer, bool spectra, bool quiet);
+
+  void on_branch_start(const continuation::Branch& branch) override;
+  void on_point(const continuation::Branch& branch, const continuation::Point& point) override;
+  void on_special_point(const continuation::Branch& branch, const continuation::Point& point) override;
+  void on_branch_end(const continuation::Branch& branch) override;
+  bool should_stop() override;
+
+  /// Starts the clock of the computation; call it right before the walk.
+  void start_clock() { resumed_ = Clock::now(); }
+  /// Final commit. @return exit status
+  int finish(const std::vector<std::string>& lost, bool quiet, bool json);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void pause() { continuation_ += std::chrono::duration<double>(Clock::now() - resumed_).count(); }
+  void add_eigenvalues(equilibrium::Solution& solution, const continuation::Point& point);
+
+  output::RunWriter& writer_;
+  bool spectra_;
+  Progress progress_;
+  stability::SpectrumSolver solver_;
+  Clock::time_point begin_ = Clock::now(), resumed_ = Clock::now();
+  double continuation_ = 0.0, stability_ = 0.0;
+  int points_ = 0, in_branch_ = 0, lost_ = 0;
+  bool stopped_ = false;
+  std::set<std::string> labels_;
+  output::BranchRow last_;
+};
+
+}  // namespace windlass::app

@@ -1,0 +1,96 @@
+#include "windlass/stability/analysis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace windlass::stability {
+
+using contact::Parity;
+using continuation::Vector;
+using equilibrium::Mode;
+using equilibrium::RodProblem;
+using equilibrium::Stability;
+
+namespace {
+
+/// A contact that carries less than this is reported as degenerate.
+constexpr double zero_force = 1e-9;
+
+bool is_half(const RodProblem& problem) { return problem.topology().half; }
+
+/// Parity of a full chain's mode: sign of ∫ d(−s)·Rot d(s) ds.
+std::string parity_of(const Eigen::VectorXd& s, const Eigen::Matrix3Xd& d) {
+  double sum = 0.0;
+  for (Eigen::Index k = 0; k < s.size(); ++k) {
+    Eigen::Index twin = 0;
+    (s.array() + s(k)).abs().minCoeff(&twin);
+    sum += d.col(twin).dot(Eigen::Vector3d(-1.0, 1.0, -1.0).cwiseProduct(d.col(k)));
+  }
+  return sum >= 0.0 ? "even" : "odd";
+}
+
+}  // namespace
+
+Mode mode_of(RodProblem& problem, const Vector& x, const Vector& p, const Vector& increment, Parity parity) {
+  constexpr double step = 1e-6;
+  const double size = std::max(increment.lpNorm<Eigen::Infinity>(), 1e-300);
+  const chain::Profile base = problem.profile(x, p);
+  const chain::Profile moved = problem.profile(problem.retract(x, (step / size) * increment), p);
+  std::vector<double> s;
+  std::vector<Eigen::Vector3d> d;
+  for (std::size_t i = 0; i < base.pieces.size(); ++i) {
+    const chain::Piece& piece = base.pieces[i];
+    for (Eigen::Index k = s.empty() ? 0 : piece.stride; k < piece.s.size(); k += piece.stride) {
+      s.push_back(piece.s(k));
+      d.push_back((moved.pieces[i].r.col(k) - piece.r.col(k)) / step);
+    }
+  }
+  const bool half = is_half(problem);
+  const Eigen::Index count = static_cast<Eigen::Index>(s.size()), total = half ? 2 * count - 1 : count;
+  Mode mode;
+  mode.s.resize(total);
+  mode.displacement.resize(3, total);
+  const Eigen::Vector3d turn = (parity == Parity::odd ? -1.0 : 1.0) * Eigen::Vector3d(-1.0, 1.0, -1.0);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Eigen::Index right = half ? count - 1 + k : k;
+    mode.s(right) = s[k];
+    mode.displacement.col(right) = d[k];
+    if (!half) continue;
+    mode.s(count - 1 - k) = -s[k];
+    mode.displacement.col(count - 1 - k) = k == 0 ? d[k] : Eigen::Vector3d(turn.cwiseProduct(d[k]));
+  }
+  const double largest = mode.displacement.cwiseAbs().maxCoeff();
+  if (largest > 0.0) mode.displacement /= largest;
+  mode.plane = mode.displacement.row(2).norm() > mode.displacement.topRows(2).norm() ? "out" : "in";
+  mode.parity = half ? (parity == Parity::odd ? "odd" : "even") : parity_of(mode.s, mode.displacement);
+  return mode;
+}
+
+Stability analyse(RodProblem& problem, const Vector& x, const Vector& p, int count, bool modes, SpectrumSolver& solver) {
+  const contact::Loads loads = problem.loads(p);
+  const Eigen::MatrixXd none(problem.size(), 0);
+  problem.chain().factor(x, loads, none, none, Eigen::MatrixXd(0, 0));
+  Stability out;
+  out.inertia_index = problem.index(x, p);
+  std::vector<Mode> all;
+  for (const Parity parity : {Parity::even, Parity::odd}) {
+    if (parity == Parity::odd && !is_half(problem)) continue;
+    const Spectrum spectrum = solver.lowest(problem.chain().second_variation(x, loads, parity), count);
+    out.index += spectrum.index;
+    for (Eigen::Index k = 0; k < spectrum.eigenvalues.size(); ++k) {
+      Mode mode;
+      if (modes)
+        mode = mode_of(problem, x, p, problem.chain().as_increment(spectrum.eigenvectors.col(k), parity), parity);
+      mode.eigenvalue = spectrum.eigenvalues(k);
+      all.push_back(std::move(mode));
+    }
+  }
+  std::sort(all.begin(), all.end(), [](const Mode& a, const Mode& b) { return a.eigenvalue < b.eigenvalue; });
+  if (static_cast<int>(all.size()) > std::max(count, out.index)) all.resize(std::max(count, out.index));
+  for (const Mode& mode : all) out.eigenvalues.push_back(mode.eigenvalue);
+  if (modes) out.modes = std::move(all);
+  for (const chain::Contact& c : problem.profile(x, p).contacts) out.degenerate |= c.force < zero_force;
+  return out;
+}
+
+}  // namespace windlass::stability

@@ -1,0 +1,115 @@
+// The chain's linear algebra against differences and against its own assembled matrix.
+#include "windlass/chain/chain.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include "windlass/equilibrium/start.hpp"
+
+namespace {
+
+using namespace windlass;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+struct Case {
+  const char* name;
+  bool spatial, half;
+  double tension;
+};
+
+/// An equilibrium with the topology that belongs to it.
+equilibrium::Started state(const Case& c) {
+  scene::Scene scene;
+  scene.has_cylinder = true;
+  scene.load.tension = c.tension;
+  scene.load.angle = 2.0 * M_PI;
+  scene.rod.length = 20.0;
+  scene.model.tolerance = 1e-6;
+  return equilibrium::cold_start(scene, c.spatial, c.half, {"load.tension"});
+}
+
+/// Central differences of the residual along increments.
+MatrixXd differences(const chain::Chain& chain, const VectorXd& x, const contact::Loads& loads) {
+  const Eigen::Index n = chain.size();
+  MatrixXd j(n, n);
+  constexpr double h = 1e-5;  // error h² of the difference: 1e-10
+  for (Eigen::Index k = 0; k < n; ++k) {
+    VectorXd step = VectorXd::Zero(n);
+    step(k) = h;
+    j.col(k) = (chain.residual(chain.retract(x, step), loads) - chain.residual(chain.retract(x, -step), loads)) / (2 * h);
+  }
+  return j;
+}
+
+constexpr Case cases[] = {{"planar line", false, true, 1.0},   {"planar touches", false, true, 0.4},
+                          {"planar full", false, false, 1.0},  {"spatial line", true, true, 1.0},
+                          {"spatial full", true, false, 2.0},  {"spatial touches", true, true, 0.4}};
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(chain_algebra)
+
+BOOST_AUTO_TEST_CASE(bordered_solves_match_differences_of_the_residual) {
+  for (const Case& c : cases) {
+    equilibrium::Started s = state(c);
+    chain::Chain& chain = s.problem->chain();
+    const contact::Loads loads = s.problem->loads(s.p);
+    const MatrixXd j = differences(chain, s.x, loads);
+    const Eigen::Index n = chain.size(), k = 2;
+    std::srand(7);
+    const MatrixXd b = MatrixXd::Random(n, k), ct = MatrixXd::Random(n, k), d = MatrixXd::Random(k, k);
+    const VectorXd f = VectorXd::Random(n), g = VectorXd::Random(k);
+    chain.factor(s.x, loads, b, ct, d);
+    MatrixXd full(n + k, n + k);
+    full << j, b, ct.transpose(), d;
+    VectorXd rhs(n + k);
+    rhs << f, g;
+    const VectorXd y = chain.solve(f, g), yt = chain.solve(f, g, true);
+    BOOST_TEST_CONTEXT(c.name) {
+      // Differences are good to about 1e-9 of the largest entries, which are stiffnesses 1/h.
+      BOOST_TEST((full * y - rhs).norm() < 1e-6 * full.norm() * y.norm());
+      BOOST_TEST((full.transpose() * yt - rhs).norm() < 1e-6 * full.norm() * yt.norm());
+      BOOST_TEST((MatrixXd(chain.jacobian(s.x, loads)) - j).norm() < 1e-7 * j.norm());
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_equilibrium_is_a_fixed_point) {
+  for (const Case& c : cases) {
+    equilibrium::Started s = state(c);
+    VectorXd x = s.x;
+    BOOST_TEST_CONTEXT(c.name) {
+      BOOST_TEST(s.problem->polish(x, s.p) <= 1);
+      BOOST_TEST((x - s.x).lpNorm<Eigen::Infinity>() < 1e-9);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(second_variation_is_symmetric_and_its_inertia_is_the_index) {
+  for (const Case& c : cases) {
+    equilibrium::Started s = state(c);
+    chain::Chain& chain = s.problem->chain();
+    const contact::Loads loads = s.problem->loads(s.p);
+    const MatrixXd none(chain.size(), 0);
+    chain.factor(s.x, loads, none, none, MatrixXd(0, 0));
+    for (auto parity : {contact::Parity::even, contact::Parity::odd}) {
+      if (parity == contact::Parity::odd && !c.half) continue;
+      const auto variation = chain.second_variation(s.x, loads, parity);
+      const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(MatrixXd(variation.matrix), Eigen::EigenvaluesOnly);
+      const int negative = static_cast<int>((eigen.eigenvalues().array() < 0.0).count());
+      BOOST_TEST_CONTEXT(c.name) BOOST_TEST(chain.index(s.x, loads, parity) == negative - variation.constraints);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(index_of_a_full_chain_is_the_sum_of_both_parities_of_its_half) {
+  for (double tension : {2.0, 1.0}) {
+    equilibrium::Started half = state({"half", true, true, tension}), full = state({"full", true, false, tension});
+    const MatrixXd none_half(half.problem->size(), 0), none_full(full.problem->size(), 0);
+    half.problem->chain().factor(half.x, half.problem->loads(half.p), none_half, none_half, MatrixXd(0, 0));
+    full.problem->chain().factor(full.x, full.problem->loads(full.p), none_full, none_full, MatrixXd(0, 0));
+    BOOST_TEST(half.problem->index(half.x, half.p) == full.problem->index(full.x, full.p));
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
