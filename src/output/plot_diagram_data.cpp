@@ -134,8 +134,10 @@ void choose_range(Axis& axis, std::vector<double> values) {
   if (axis.log) {
     axis.log = values.back() / values.front() > 5.0;
     if (axis.log) {
-      const double margin = std::pow(values.back() / values.front(), 0.06);
-      axis.low = values.front() / margin, axis.high = values.back() * margin;
+      // where contact is about to be lost R_tot goes to zero: five decades are enough to see that
+      const double lowest = 1e-5 * values.back(),
+                   margin = std::pow(values.back() / std::max(values.front(), lowest), 0.06);
+      axis.low = std::max(values.front() / margin, lowest), axis.high = values.back() * margin;
       return;
     }
   }
@@ -181,6 +183,11 @@ DiagramData diagram_data(const Run& run) {
   for (std::size_t k = 0; k < quantities.size(); ++k) {
     data.panels.push_back(quantities[k].axis);
     choose_range(data.panels.back(), seen[k + 1]);
+    // alpha goes to infinity where contact is lost; what it tells is its way from 1 upwards
+    if (data.panels.back().name == "alpha") {
+      data.panels.back().low = std::max(data.panels.back().low, -0.5);
+      data.panels.back().high = std::clamp(data.panels.back().high, 1.5, 4.0);
+    }
   }
   for (const SpecialPoint& point : run.special_points) {
     const auto found = labelled.find(point.label);

@@ -50,7 +50,7 @@ std::string view_data(const RodCurve& curve, const equilibrium::Solution& soluti
     const Vector2d at = view.project(curve.r[i]);
     const int now = hidden ? 1 : contact ? 2 : 0;
     // a change of block: the old one still gets this place, to leave no hole, and then a break
-    if (drawn_as >= 0 && now != drawn_as) blocks[drawn_as] += line({at.x(), at.y(), curve.p[i]}) + "\n";
+    if (drawn_as >= 0 && now != drawn_as) blocks[drawn_as] += line({at.x(), at.y(), curve.p[i - 1]}) + "\n";
     blocks[now] += line({at.x(), at.y(), curve.p[i]});
     drawn_as = now;
   }

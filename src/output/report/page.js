@@ -76,11 +76,17 @@
     };
   }
 
-  /** 1, 2, 5 times powers of ten: branches often span less than a decade. */
-  function logTicks() {
-    const tickvals = [];
-    for (let e = -8; e <= 8; ++e) [1, 2, 5].forEach((digit) => tickvals.push(Number(`${digit}e${e}`)));
-    return { tickvals, ticktext: tickvals.map((v) => (v >= 1e-4 && v < 1e5 ? String(v) : v.toExponential())) };
+  /** Ticks at 1, 2, 5 times powers of ten (branches often span less than a decade), and at most five decades. */
+  function logAxis(name) {
+    const all = data.branches.flatMap((b) => column(b, name)).filter((v) => v > 0);
+    const high = Math.max(...all), low = Math.max(Math.min(...all), 1e-5 * high), tickvals = [];
+    const digits = high / low > 300 ? [1] : [1, 2, 5];
+    for (let e = Math.floor(Math.log10(low)) - 1; e <= Math.log10(high) + 1; ++e) digits.forEach((d) => tickvals.push(Number(`${d}e${e}`)));
+    const margin = 0.05 * Math.log10(high / low) + 0.01;
+    return {
+      tickvals, ticktext: tickvals.map((v) => (v >= 1e-4 && v < 1e5 ? String(v) : v.toExponential())),
+      range: [Math.log10(low) - margin, Math.log10(high) + margin],
+    };
   }
 
   function drawDiagram() {
@@ -90,7 +96,7 @@
     }));
     const axis = (name, log) => ({
       title: { text: titleOf(name), standoff: 8 }, type: log ? "log" : "linear", showline: true, mirror: true,
-      ticks: "inside", zeroline: false, automargin: true, gridcolor: "#eee", ...(log ? logTicks() : {}),
+      ticks: "inside", zeroline: false, automargin: true, gridcolor: "#eee", ...(log ? logAxis(name) : {}),
     });
     Plotly.react("diagram", [...shown.flatMap(armTraces), ...specialTraces(), ...legend, chosenTrace()], {
       font, margin: { l: 62, r: 12, t: 8, b: 48 }, hovermode: "closest", dragmode: "pan", uirevision: `${state.x}|${state.y}|${state.xLog}|${state.yLog}`,
@@ -185,7 +191,7 @@
   function drawPressure(rod) {
     const lines = rod.arcs.filter((arc) => arc.line);
     const traces = lines.map((arc) => ({ type: "scatter", mode: "lines", x: arc.s, y: arc.p, fill: "tozeroy", fillcolor: "#f3c6a5",
-      line: { color: "#bc3754", width: 2 }, showlegend: false, hovertemplate: "s %{x:.4g}<br>p %{y:.5g}<extra></extra>" }));
+      line: { color: "#bc3754", width: 2, simplify: false }, showlegend: false, hovertemplate: "s %{x:.4g}<br>p %{y:.5g}<extra></extra>" }));
     rod.forces.forEach((force) => traces.push({ type: "scatter", mode: "lines+markers", x: [force.s, force.s], y: [0, force.f], yaxis: "y2",
       line: { color: "#c00000", width: 3 }, marker: { symbol: "triangle-up", size: [0, 9], color: "#c00000" }, showlegend: false,
       hovertemplate: "s %{x:.4g}<br>f %{y:.5g}<extra></extra>" }));
