@@ -69,7 +69,7 @@ void Walker::pass(Point event, std::size_t which, const std::string& name, int d
   event.before = transition->before;
   event.after = transition->after;
   if (!transition->problem) return finish(End::Kind::event, "event " + name + " ends the branch");
-  if (!enter(transition->problem, transition->state, p_, direction, name, failure))
+  if (!enter(*transition, direction, name, failure))
     return finish(End::Kind::lost, "event " + name + ": " + failure);
   event.index_after = index_;
   event.next_problem = problem_->clone();
@@ -79,10 +79,12 @@ void Walker::pass(Point event, std::size_t which, const std::string& name, int d
 }
 
 // Corrects the new problem's state at p, or slightly beyond, and finds the direction in which it is valid.
-bool Walker::enter(std::shared_ptr<Problem> problem, const Vector& guess, const Vector& p, int direction,
-                   const std::string& passed, std::string& failure) {
+bool Walker::enter(const Transition& transition, int direction, const std::string& passed, std::string& failure) {
+  const std::shared_ptr<Problem>& problem = transition.problem;
   const double step = step_length_.current() * options_.parameter_scale;
+  const Vector p = p_;
   std::vector<double> offsets{0.0};
+  if (transition.p.size() == p.size()) offsets.insert(offsets.begin(), parameter(transition.p) - p[options_.parameter]);
   for (const int sign : {direction, -direction}) {
     for (const double size : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) offsets.push_back(sign * size * step);
   }
@@ -95,7 +97,7 @@ bool Walker::enter(std::shared_ptr<Problem> problem, const Vector& guess, const 
   for (const double offset : offsets) {
     Vector at = p;
     parameter(at) += offset;
-    Iterate it{guess, Vector::Zero(problem->size()), at, Vector::Zero(1)};
+    Iterate it{transition.state, Vector::Zero(problem->size()), at, Vector::Zero(1)};
     const CorrectorReport report = correct(*problem, fixed_parameter(*problem, options_), it, trial_options);
     if (!report.converged) {
       if (offset == 0.0) failure = "the new problem cannot be solved: " + report.failure;

@@ -41,10 +41,9 @@ void BranchRecorder::add_eigenvalues(Solution& solution, const Point& point) {
     try {
       stability = stability::analyse(problem, point.x, point.p, 1, special(point), solver_);
     } catch (const std::exception&) {  // at a singular point the spectrum may be out of reach; the index is not
-      stability.inertia_index = point.index;
     }
   }
-  stability.index = stability.inertia_index = point.index;
+  stability.index = stability.inertia_index = problem.total_index(point.x, point.p);
   solution.stability = stability;
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   solution.seconds_stability = seconds;

@@ -14,7 +14,7 @@ namespace windlass::app {
 /// time spent on spectra are told apart from time spent writing.
 class BranchRecorder final : public continuation::DiagramObserver {
  public:
-  /// @param fixed  fraction of points that get eigenvalues from SLEPc: special points always, others if `spectra`
+  /// @param spectra  eigenvalues from SLEPc at every point; special points get them always
   BranchRecorder(output::RunWriter& writer, bool spectra, bool quiet);
 
   void on_branch_start(const continuation::Branch& branch) override;

@@ -8,7 +8,7 @@ int run_continue(const BranchRequest& request) {
   petsc::ensure_session();
   const BranchSetup setup = set_up_branch(request);
   output::RunWriter writer = open_run(request, "continue");
-  BranchRecorder recorder(writer, true, request.common.quiet);
+  BranchRecorder recorder(writer, false, request.common.quiet);
   continuation::Branch branch;
   recorder.start_clock();
   continuation::Walker walker(setup.start.problem, setup.start.x, setup.start.p, setup.options);

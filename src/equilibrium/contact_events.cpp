@@ -132,6 +132,19 @@ std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& st
   open.kinds[twin] = Stretch::gap;
   const bool uniform = line.p.maxCoeff() < 1e-6;
   if (uniform) out.push_back(successor_of(open));
+  // Pressure lost at an edge, whose point force stays: the force becomes a touch, with a gap between it and the line.
+  const bool at_start = event.s < begin + 0.02 * length && i > 0 && !(!strip.half && i == strip.marker);
+  const bool at_end = event.s > end - 0.02 * length && !(!strip.half && i + 1 == strip.marker);
+  for (const double part : {0.08, 0.04, 0.02}) {
+    Strip detached = strip;
+    if (at_end && !uniform) {
+      split(detached, i, end - part * length, Stretch::line, Stretch::gap);
+      out.push_back(successor_of(detached));
+    } else if (at_start && !uniform) {
+      split(detached, i, begin + part * length, Stretch::gap, Stretch::line);
+      out.push_back(successor_of(detached));
+    }
+  }
   for (const double part : {0.1, 0.25, 0.5}) {
     Strip inner = strip;
     if (at_mid && event.s < begin + 0.02 * length) {

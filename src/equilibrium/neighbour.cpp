@@ -38,7 +38,7 @@ std::optional<Started> stable_neighbour(Started& unstable) {
     scene.load.tension = goal * factor;
     try {
       Started above = cold_start(scene, true, unstable.problem->topology().half, unstable.problem->keys());
-      if (above.problem->index(above.x, above.p) > 0) continue;
+      if (above.problem->total_index(above.x, above.p) > 0) continue;
       continuation::Options options;
       options.target = goal;
       options.lower = goal;

@@ -113,7 +113,13 @@ void RodProblem::factor(const Vector& x, const Vector& p, const Eigen::MatrixXd&
 }
 
 int RodProblem::index(const Vector& x, const Vector& p) {
+  return chain_->index(x, loads(p), contact::Parity::even);
+}
+
+int RodProblem::total_index(const Vector& x, const Vector& p) {
   const Loads at = loads(p);
+  const Eigen::MatrixXd none(chain_->size(), 0);
+  chain_->factor(x, at, none, none, Eigen::MatrixXd(0, 0));
   return chain_->index(x, at, contact::Parity::even) + chain_->index(x, at, contact::Parity::odd);
 }
 

@@ -8,10 +8,10 @@ namespace windlass::equilibrium {
 
 namespace {
 
-/// Can this state be the continuation? Forces may be slightly negative at the event itself.
+/// Can this state be the continuation? At the event itself forces vanish, to within rounding.
 bool admissible(const std::vector<ContactEvent>& events) {
   for (const ContactEvent& event : events)
-    if (event.value < (event.kind == ContactEvent::Kind::length ? 0.0 : -1e-4)) return false;
+    if (event.value < (event.kind == ContactEvent::Kind::length ? 1e-6 : -1e-6)) return false;
   return true;
 }
 
@@ -51,14 +51,19 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
     transition.state = guess;
     transition.problem = problem;
     if (!first) first = transition;
-    // Prefer a successor that has a solution right here with its contacts intact.
-    try {
-      if (problem->polish(guess, p) >= 0 &&
-          admissible(contact_events(problem->profile(guess, p), problem->topology()))) {
-        transition.state = guess;
+    // Prefer a successor that has a solution right here, or (a new arc has no length at the event itself) a little to
+    // either side of it, with its contacts intact.
+    for (const double offset : {0.0, -0.02, 0.02, -0.008, 0.008, -0.002, 0.002}) {
+      Vector beside = p, y = guess;
+      beside(0) += offset * std::max(1.0, std::abs(p(0)));
+      try {
+        if (problem->polish(y, beside, 18) < 0) continue;
+        if (!admissible(contact_events(problem->profile(y, beside), problem->topology()))) continue;
+        transition.state = y;
+        if (offset != 0.0) transition.p = beside;
         return transition;
+      } catch (const std::exception&) {  // a length or tension left its domain: not this one
       }
-    } catch (const std::exception&) {  // a length or tension left its domain: not this one
     }
   }
   return first;

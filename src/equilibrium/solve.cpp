@@ -34,7 +34,7 @@ bool symmetric(const scene::Scene& scene) { return scene.model.symmetry != scene
 /// Number of unstable directions of a planar state in space.
 int spatial_index(Started& planar) {
   Started lifted = lift(*planar.problem, planar.x, planar.p, true);
-  return lifted.problem->index(lifted.x, lifted.p);
+  return lifted.problem->total_index(lifted.x, lifted.p);
 }
 
 Solution solve_automatically(const scene::Scene& scene, const std::vector<std::string>& keys) {
@@ -43,7 +43,6 @@ Solution solve_automatically(const scene::Scene& scene, const std::vector<std::s
     return finish(rod, "a strut may twist and leave the plane: Kirchhoff rod");
   }
   Started planar = cold_start(scene, false, true, keys);
-  planar.problem->index(planar.x, planar.p);
   const int index = spatial_index(planar);
   if (index == 0 && symmetric(scene)) {
     if (scene.rod.infinite() && rod::capstan::line_contact(scene.load.tension, scene.load.angle)) {

@@ -68,10 +68,8 @@ Mode mode_of(RodProblem& problem, const Vector& x, const Vector& p, const Vector
 
 Stability analyse(RodProblem& problem, const Vector& x, const Vector& p, int count, bool modes, SpectrumSolver& solver) {
   const contact::Loads loads = problem.loads(p);
-  const Eigen::MatrixXd none(problem.size(), 0);
-  problem.chain().factor(x, loads, none, none, Eigen::MatrixXd(0, 0));
   Stability out;
-  out.inertia_index = problem.index(x, p);
+  out.inertia_index = problem.total_index(x, p);
   std::vector<Mode> all;
   for (const Parity parity : {Parity::even, Parity::odd}) {
     if (parity == Parity::odd && !is_half(problem)) continue;

@@ -18,6 +18,7 @@ struct Transition {
   std::shared_ptr<Problem> problem;  ///< null: the branch ends here (a reported end, not a failure)
   Vector state;                      ///< a guess for the new problem, to be corrected by the caller
   std::string before, after;         ///< descriptions of the two sides, e.g. contact topologies
+  Vector p;  ///< where `state` solves, if beside the event (where a new part has no size yet)
 };
 
 /// A scalar that must keep its sign along a regular branch.

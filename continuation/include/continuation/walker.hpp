@@ -64,12 +64,12 @@ class Walker {
 
   // walker_transition.cpp
   void pass(Point event, std::size_t which, const std::string& name, int direction);
-  bool enter(std::shared_ptr<Problem> problem, const Vector& guess, const Vector& p, int direction,
-             const std::string& passed, std::string& failure);
+  bool enter(const Transition& transition, int direction, const std::string& passed, std::string& failure);
   bool valid_direction(const std::shared_ptr<Problem>& problem, const Vector& x, const Vector& p,
                        const Tangent& tangent, const std::string& passed);
 
   double& parameter(Vector& p) const { return p[options_.parameter]; }
+  double parameter(const Vector& p) const { return p[options_.parameter]; }
   void lose(const std::string& reason) { end_ = End{End::Kind::lost, reason}; }
 
   std::shared_ptr<Problem> problem_;

@@ -34,7 +34,11 @@ class RodProblem final : public continuation::Problem {
               const Eigen::MatrixXd& d) override;
   Vector solve(const Vector& f, const Vector& g) override { return chain_->solve(f, g); }
   Vector solve_transposed(const Vector& f, const Vector& g) override { return chain_->solve(f, g, true); }
+  /// Negative directions among those this chain can follow: a half chain counts even variations only, since its own
+  /// equations stay regular where an odd mode becomes unstable. Reads the last factorisation.
   int index(const Vector& x, const Vector& p) override;
+  /// Negative directions of the whole rod, both parities. Factors anew.
+  int total_index(const Vector& x, const Vector& p);
   int determinant_sign() override { return chain_->determinant_sign(); }
   Vector retract(const Vector& x, const Vector& dx) const override { return chain_->retract(x, dx); }
   double inner(const Vector& a, const Vector& b) const override;
