@@ -21,7 +21,7 @@ std::shared_ptr<AlgebraicProblem> free_spring() {
   problem->transition_of = [](std::size_t which, const Vector& x,
                               const Vector&) -> std::optional<Transition> {
     if (which != 1) return std::nullopt;
-    return Transition{touching(), vector({x[0], 0.0}), "free", "touch"};
+    return Transition{touching(), vector({x[0], 0.0}), "free", "touch", {}};
   };
   return problem;
 }
@@ -34,7 +34,7 @@ std::shared_ptr<AlgebraicProblem> touching() {
     return std::vector<EventFunction>{{"force", x[1]}};
   };
   problem->transition_of = [](std::size_t, const Vector& x, const Vector&) -> std::optional<Transition> {
-    return Transition{free_spring(), vector({x[0]}), "touch", "free"};
+    return Transition{free_spring(), vector({x[0]}), "touch", "free", {}};
   };
   return problem;
 }
@@ -76,7 +76,7 @@ BOOST_AUTO_TEST_CASE(several_events_in_one_step_come_in_order) {
   std::vector<std::size_t> seen;
   problem->transition_of = [&](std::size_t which, const Vector&, const Vector&) -> std::optional<Transition> {
     seen.push_back(which);
-    return Transition{nullptr, {}, "a", "b"};
+    return Transition{nullptr, {}, "a", "b", {}};
   };
   Options options;
   options.step = 1.0, options.step_max = 1.0;
@@ -114,7 +114,7 @@ BOOST_AUTO_TEST_CASE(branch_may_turn_back_at_an_event) {
     return std::vector<EventFunction>{{"second", x[0] - 0.5}};
   };
   first->transition_of = [second](std::size_t, const Vector& x, const Vector&) {
-    return std::optional(Transition{second, x, "first", "second"});
+    return std::optional(Transition{second, x, "first", "second", {}});
   };
   Options options;
   options.lower = -1.0;
@@ -131,7 +131,7 @@ BOOST_AUTO_TEST_CASE(event_with_no_valid_side_is_lost) {
   first->transition_of = [](std::size_t, const Vector& x, const Vector&) {
     auto bad = scalar([](double y, const Vector& p) { return y - p[0]; });
     bad->events_of = [](const Vector&, const Vector&) { return std::vector<EventFunction>{{"never", -1.0}}; };
-    return std::optional(Transition{bad, x, "a", "b"});
+    return std::optional(Transition{bad, x, "a", "b", {}});
   };
   Options options;
   options.target = 3.0;
@@ -153,7 +153,7 @@ BOOST_AUTO_TEST_CASE(event_at_the_edge_of_the_domain) {
   first->transition_of = [](std::size_t which, const Vector& x, const Vector&) -> std::optional<Transition> {
     if (which != 1) return std::nullopt;
     return Transition{scalar([](double y, const Vector& p) { return y - 0.7 - 2.0 * (p[0] - 0.7); }), x, "a",
-                      "b"};
+                      "b", {}};
   };
   Options options;
   options.target = 1.0;
@@ -187,7 +187,7 @@ BOOST_AUTO_TEST_CASE(mirror_images_vanish_together) {
     problem->transition_of = [left, right, &make](std::size_t which, const Vector& x, const Vector&) {
       Vector guess = Vector::Zero(x.size() + 1);
       guess[0] = 1.0;
-      return std::optional(Transition{make(left || which == 0, right || which == 1), guess, "", ""});
+      return std::optional(Transition{make(left || which == 0, right || which == 1), guess, "", "", {}});
     };
     return problem;
   };
@@ -217,10 +217,10 @@ BOOST_AUTO_TEST_CASE(ping_pong_is_not_endless) {
     return std::make_shared<AlgebraicProblem>(*problem);
   };
   b->transition_of = [=](std::size_t, const Vector& x, const Vector&) {
-    return std::optional(Transition{copy(a), x, "b", "a"});
+    return std::optional(Transition{copy(a), x, "b", "a", {}});
   };
   a->transition_of = [=](std::size_t, const Vector& x, const Vector&) {
-    return std::optional(Transition{copy(b), x, "a", "b"});
+    return std::optional(Transition{copy(b), x, "a", "b", {}});
   };
   Options options;
   options.target = 3.0;

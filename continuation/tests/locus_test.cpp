@@ -159,7 +159,7 @@ BOOST_AUTO_TEST_CASE(event_locus_goes_through_another_event) {
     beyond->events_of = [](const Vector& y, const Vector&) {
       return std::vector<EventFunction>{{"gap", 1.0 - y[0]}, {"force", y[1]}};
     };
-    return std::optional(Transition{beyond, vector({x[0], 0.0}), "off", "on"});
+    return std::optional(Transition{beyond, vector({x[0], 0.0}), "off", "on", {}});
   };
   const Point event = special(gap_problem(), vector({0.0}), vector({0.0, 0.0}), PointType::event);
   Point start = event;

@@ -44,7 +44,7 @@ void Touch::curvature(Side, const double* w, const Loads&, const SmallVector&, c
 Joint::Location Touch::location(const double* w, const SmallVector&, const SmallVector&) const {
   Location c;
   c.value = std::sin(w[0] - w[1]);
-  c.by_w = SmallVector(2);
+  c.by_w.resize(2);
   c.by_w << std::cos(w[0] - w[1]), -std::cos(w[0] - w[1]);
   return c;
 }

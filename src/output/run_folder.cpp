@@ -80,7 +80,6 @@ RunWriter RunWriter::resume(const fs::path& folder) {
   RunWriter writer;
   writer.folder_ = folder;
   writer.info_ = std::move(run.info);
-  writer.info_.status = "running";
   writer.store_ = std::move(run.points);
   for (BranchRow& row : run.rows) {
     if (writer.store_.find(point_name(row.branch, row.point, ""))) writer.rows_.push_back(std::move(row));
@@ -97,6 +96,7 @@ RunWriter RunWriter::resume(const fs::path& folder) {
 }
 
 void RunWriter::add_point(const BranchRow& row, const equilibrium::Solution& solution) {
+  info_.status = "running";  // a finished run that only gets spectra stays finished
   store_.append({row.branch, row.point, row.label}, solution);
   rows_.push_back(row);
   branches_.append(csv_line(row, info_.has_cylinder, info_.extra_parameter));

@@ -33,13 +33,14 @@ inline std::string slurp(const std::filesystem::path& path) {
 
 /// Runs the program as a user does. The binary is what ctest names in WINDLASS_BINARY.
 /// @param folder  working directory of the program; its runs/ end up there
+/// @param before  shell words in front of the program: a limit to set, another program that runs it
 inline Outcome run_program(const std::vector<std::string>& arguments,
-                           const std::filesystem::path& folder = ".") {
+                           const std::filesystem::path& folder = ".", const std::string& before = "") {
   const char* binary = std::getenv("WINDLASS_BINARY");
   if (!binary || !*binary)
     throw std::runtime_error("WINDLASS_BINARY does not name the program; run through ctest");
   const TemporaryFolder streams;
-  std::string command = "cd " + quoted(folder.string()) + " && " + quoted(binary);
+  std::string command = "cd " + quoted(folder.string()) + " && " + before + " " + quoted(binary);
   for (const std::string& argument : arguments) command += " " + quoted(argument);
   command +=
       " > " + quoted(streams.path() / "out") + " 2> " + quoted(streams.path() / "err") + " < /dev/null";
