@@ -40,6 +40,8 @@ continuation::Options options_of(const scene::Scene& scene, double from) {
   if (c.step_max > 0.0) options.step_max = c.step_max;
   options.step = std::min(options.step, options.step_max);
   options.max_points = c.max_points;
+  // Newton converges quadratically: the error left after an increment of 1e-9 is rounding.
+  options.newton_tolerance = 1e-9;
   return options;
 }
 

@@ -1,7 +1,6 @@
 #include "windlass/chain/chain.hpp"
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "windlass/rod/quaternion.hpp"
@@ -107,10 +106,10 @@ Chain::Placed Chain::place(const VectorXd& x, const Loads& loads, int link) cons
   p.length = arclength(x, loads, link + 1) - arclength(x, loads, link);
   if (std::isinf(p.length)) p.length = tail_decay_lengths / std::sqrt(p.n.norm());
   // Between contacts the equations hold, analytically, for lengths past zero too, so that the event can be located
-  // from both sides; only zero itself is singular. A tail must exist.
-  const double shortest = links_[link].pull != 0 ? 0.0 : -std::numeric_limits<double>::infinity();
-  if (!(p.length > shortest) || std::abs(p.length) < 1e-14)
-    throw std::domain_error("an arc's length is not positive");
+  // from both sides; only zero itself is singular and is stepped over. A tail must exist.
+  constexpr double smallest = 1e-13;
+  if (links_[link].pull != 0 && !(p.length > 0.0)) throw std::domain_error("a tail's length is not positive");
+  if (std::abs(p.length) < smallest) p.length = std::copysign(smallest, p.length);
   return p;
 }
 

@@ -145,7 +145,9 @@ std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& st
       out.push_back(successor_of(detached));
     }
   }
-  for (const double part : {0.1, 0.25, 0.5}) {
+  for (const double size : {0.5, 0.3, 0.8}) {  // an opening grows like the square root: not small a little beyond
+    const double part = size / length;
+    if (part > 0.9) continue;
     Strip inner = strip;
     if (at_mid && event.s < begin + 0.02 * length) {
       split(inner, i, begin + part * length, Stretch::gap, Stretch::line);
@@ -154,7 +156,7 @@ std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& st
       split(inner, left + 1, strip.s[left + 1] + part * length, Stretch::gap, Stretch::line);
       split(inner, left, strip.s[left + 1] - part * length, Stretch::line, Stretch::gap);
     } else {
-      const double half_gap = part * std::min(event.s - begin, end - event.s);
+      const double half_gap = std::min(size, 0.8 * std::min(event.s - begin, end - event.s));
       if (half_gap < 1e-3 * length) break;
       split(inner, i, event.s - half_gap, Stretch::line, Stretch::gap);
       split(inner, i + 1, event.s + half_gap, Stretch::gap, Stretch::line);

@@ -68,7 +68,7 @@ class Chain {
     double length = 0.0;
     bvp::ArcPoint point() const { return {left.q.data(), right.q.data(), interior, n.data(), length}; }
   };
-  /// @throws std::domain_error if the arc's length is zero, or a tail's is not positive.
+  /// @throws std::domain_error if a tail's length is not positive.
   Placed place(const VectorXd& x, const Loads& loads, int link) const;
 
   VectorXd retract(const VectorXd& x, const VectorXd& dx) const;

@@ -76,6 +76,7 @@ class RodProblem final : public continuation::Problem {
 
  private:
   void rebuild();
+  bool degenerate(const Vector& x, const contact::Loads& at) const;
   /// Errors divided by what is allowed: of the target by the tolerance, of the nodes by the certificate's level.
   double excess(const Vector& x, const Vector& p);
   std::vector<chain::ArcMesh> new_meshes(const Vector& x, const contact::Loads& loads, double growth) const;
@@ -89,6 +90,7 @@ class RodProblem final : public continuation::Problem {
   contact::Loads base_;
   std::vector<double contact::Loads::*> fields_;  ///< where each parameter lives; null: rebuilds the rod
   std::unique_ptr<chain::Chain> chain_, finer_;   ///< finer_: one more stage, for the error estimate
+  int index_ = -1;             ///< last count at a sound point
   double last_error_ = 0.0;    ///< relative, of the target
   double nodal_error_ = 0.0;   ///< of frames and places at element ends
 };
