@@ -123,12 +123,14 @@ void RunWriter::set_stability(const std::string& name, const equilibrium::Stabil
     row.index = stability.index;
     if (!stability.eigenvalues.empty()) row.eigenvalue_1 = stability.eigenvalues.front();
   }
-  committed_ = 0;  // the file on disk is out of date
+  committed_ = 0;  // the files on disk are out of date
+  rows_stale_ = true;
 }
 
 void RunWriter::commit() {
   const auto begin = std::chrono::steady_clock::now();
   store_.write(folder_ / points_file);
+  if (rows_stale_) rewrite_branches();
   write_info();
   committed_ = store_.size();
   last_commit_ = std::chrono::steady_clock::now();
@@ -153,6 +155,7 @@ void RunWriter::rewrite_branches() {
   for (const BranchRow& row : rows_) text += csv_line(row, info_.has_cylinder, info_.extra_parameter);
   replace_file(folder_ / branches_file, std::string_view(text));
   branches_ = AppendFile(folder_ / branches_file);
+  rows_stale_ = false;
 }
 
 void RunWriter::write_special_points() const {

@@ -67,6 +67,7 @@ class RunWriter {
   std::vector<SpecialPoint> special_points_;
   PointStore store_;
   std::size_t committed_ = 0;
+  bool rows_stale_ = false;  ///< rows_ holds what branches.csv does not
   std::chrono::steady_clock::time_point last_commit_{};
   std::chrono::duration<double> pause_{1.0};
 };
