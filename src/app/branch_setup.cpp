@@ -63,6 +63,10 @@ BranchSetup set_up_branch(const BranchRequest& request) {
     setup.start.p = setup.start.problem->parameters();
   } else {
     if (scene.continuation->from != 0.0 || key == "load.angle") scene::set_parameter(scene, key, scene.continuation->from);
+    // The straight strut's thrust is undetermined; its buckled states end there.
+    constexpr double least_shortening = 1e-5;
+    if (key == "ends.shortening" && scene.ends.shortening.value_or(0.0) < least_shortening)
+      scene.ends.shortening = least_shortening;
     setup.start = equilibrium::cold_start(scene, needs_space(scene), scene.model.symmetry != scene::Symmetry::none, {key});
   }
   setup.options = options_of(scene, setup.start.p(0));

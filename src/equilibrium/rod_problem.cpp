@@ -267,7 +267,9 @@ std::vector<chain::ArcMesh> RodProblem::new_meshes(const Vector& x, const Loads&
 double RodProblem::excess(const Vector& x, const Vector& p) {
   const double goal = scene_.model.tolerance;
   const double error = error_estimate(x, p);
-  return std::max(error / goal, nodal_error_ / (0.3 * std::min(goal, certificate_level)));
+  // A strut is as long as its unit, so its strains, and with them the moments, are some ten times its rotations.
+  const double share = rod_.strut ? 0.03 : 0.3;
+  return std::max(error / goal, nodal_error_ / (share * std::min(goal, certificate_level)));
 }
 
 Vector RodProblem::refine(Vector x, const Vector& p, int rounds) {

@@ -119,7 +119,12 @@ Started start_strut(const scene::Scene& scene, bool half, const std::vector<std:
   Vector x, p;
   int iterations = 0;
   const Topology topology{{Stretch::tail}, {}, true, false};
-  for (double at = std::min(goal, 0.02);; at = std::min(goal, at + 0.05)) {
+  if (scene.ends.shortening && !(goal > 0.0))
+    throw NoEquilibrium("ends.shortening = 0: a straight inextensible strut carries any thrust up to buckling; give "
+                        "load.thrust, or a shortening above 0");
+  // From a moderate bow up in steps, or down by factors: the amplitude goes like the square root.
+  constexpr double first = 0.02;
+  for (double at = scene.ends.shortening ? first : goal;; at = goal > at ? std::min(goal, at + 0.05) : std::max(goal, at / 3.0)) {
     if (scene.ends.shortening) near.ends.shortening = at;
     const Loads here = loads_of(near);
     const std::vector<ArcMesh> meshes =
@@ -136,7 +141,7 @@ Started start_strut(const scene::Scene& scene, bool half, const std::vector<std:
     if (used < 0) throw NoEquilibrium("Newton did not converge for the strut at shortening " + std::to_string(at));
     iterations += used;
     problem = next;
-    if (at >= goal) break;
+    if (at == goal) break;
   }
   x = problem->refine(x, p);
   if (!half) return unfold(*problem, x, p, iterations);
