@@ -79,12 +79,14 @@ void Walker::pass(Point event, std::size_t which, const std::string& name, int d
 }
 
 // Corrects the new problem's state at p, or slightly beyond, and finds the direction in which it is valid.
-bool Walker::enter(const Transition& transition, int direction, const std::string& passed, std::string& failure) {
+bool Walker::enter(const Transition& transition, int direction, const std::string& passed,
+                   std::string& failure) {
   const std::shared_ptr<Problem>& problem = transition.problem;
   const double step = step_length_.current() * options_.parameter_scale;
   const Vector p = p_;
   std::vector<double> offsets{0.0};
-  if (transition.p.size() == p.size()) offsets.insert(offsets.begin(), parameter(transition.p) - p[options_.parameter]);
+  if (transition.p.size() == p.size())
+    offsets.insert(offsets.begin(), parameter(transition.p) - p[options_.parameter]);
   for (const int sign : {direction, -direction}) {
     for (const double size : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) offsets.push_back(sign * size * step);
   }

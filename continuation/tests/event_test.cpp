@@ -152,8 +152,8 @@ BOOST_AUTO_TEST_CASE(event_at_the_edge_of_the_domain) {
   };
   first->transition_of = [](std::size_t which, const Vector& x, const Vector&) -> std::optional<Transition> {
     if (which != 1) return std::nullopt;
-    return Transition{scalar([](double y, const Vector& p) { return y - 0.7 - 2.0 * (p[0] - 0.7); }), x, "a",
-                      "b", {}};
+    return Transition{
+        scalar([](double y, const Vector& p) { return y - 0.7 - 2.0 * (p[0] - 0.7); }), x, "a", "b", {}};
   };
   Options options;
   options.target = 1.0;

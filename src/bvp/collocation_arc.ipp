@@ -39,7 +39,8 @@ namespace {
 
 /// Value and derivative of an element's polynomial at Gauss point g.
 template <class Nodes, class Ambient>
-void evaluate(const CollocationTable& table, const Nodes& q, int g, double inverse, Ambient& value, Ambient& slope) {
+void evaluate(const CollocationTable& table, const Nodes& q, int g, double inverse, Ambient& value,
+              Ambient& slope) {
   value.setZero();
   slope.setZero();
   for (int i = 0; i <= table.stages; ++i) {
@@ -52,8 +53,8 @@ void evaluate(const CollocationTable& table, const Nodes& q, int g, double inver
 }  // namespace
 
 template <class Density>
-void CollocationArc<Density>::element_gradient(const Nodes& q, const ArcPoint& at, int element, Nodes& out, Force& g_n,
-                                               double& g_length) const {
+void CollocationArc<Density>::element_gradient(const Nodes& q, const ArcPoint& at, int element, Nodes& out,
+                                               Force& g_n, double& g_length) const {
   const double h = mesh_[element + 1] - mesh_[element], inverse = 1.0 / (h * at.length);
   const Eigen::Map<const Force> n(at.n);
   out.setZero(A, stages() + 1);
@@ -65,7 +66,8 @@ void CollocationArc<Density>::element_gradient(const Nodes& q, const ArcPoint& a
     const double lagrangian = density_.first(value, slope, n, gz, d);
     const double w = h * table_.weight(g), wl = w * at.length;
     for (int i = 0; i <= stages(); ++i)
-      out.col(i) += (wl * table_.value(g, i)) * gz.template head<A>() + (w / h * table_.slope(g, i)) * gz.template tail<A>();
+      out.col(i) += (wl * table_.value(g, i)) * gz.template head<A>() +
+                    (w / h * table_.slope(g, i)) * gz.template tail<A>();
     g_n -= wl * d;
     g_length += w * (lagrangian - gz.template tail<A>().dot(slope));
   }
@@ -166,7 +168,8 @@ void CollocationArc<Density>::factor(const ArcPoint& at, EndsMatrix& condensed) 
     node.template block<D, D>(0, 0) = carry.template block<D, D>(D, D) + s.template block<D, D>(0, 0);
     node.template block<D, D>(D, 0) = carry.template block<D, D>(D, 0).transpose();
     node.template block<D, D>(2 * D, 0) = s.template block<D, D>(D, 0);
-    node.template block<F, D>(3 * D, 0) = carry.template block<F, D>(2 * D, D) + s.template block<F, D>(2 * D, 0);
+    node.template block<F, D>(3 * D, 0) =
+        carry.template block<F, D>(2 * D, D) + s.template block<F, D>(2 * D, 0);
     node.template block<D, D>(D, D) = carry.template block<D, D>(0, 0);
     node.template block<F, D>(3 * D, D) = carry.template block<F, D>(2 * D, 0);
     node.template block<D, D>(2 * D, 2 * D) = s.template block<D, D>(D, D);
@@ -238,7 +241,8 @@ int CollocationArc<Density>::place(int element, int column) const {
 }
 
 template <class Density>
-void CollocationArc<Density>::hessian(const ArcPoint& at, std::vector<Eigen::Triplet<double>>& entries) const {
+void CollocationArc<Density>::hessian(const ArcPoint& at,
+                                      std::vector<Eigen::Triplet<double>>& entries) const {
   Nodes q;
   for (int e = 0; e < elements(); ++e) {
     gather(at, e, q);
@@ -260,15 +264,19 @@ Eigen::VectorXd CollocationArc<Density>::metric(const ArcPoint& at) const {
   for (int e = 0; e < elements(); ++e)
     for (int i = 0; i <= stages(); ++i)
       for (int j = 0; j < D; ++j)
-        mass(place(e, column(i) + j)) += Density::metric_scale * lumped(i) * at.length * (mesh_[e + 1] - mesh_[e]);
+        mass(place(e, column(i) + j)) +=
+            Density::metric_scale * lumped(i) * at.length * (mesh_[e + 1] - mesh_[e]);
   return mass;
 }
 
 template <class Density>
 ArcSamples CollocationArc<Density>::sample(const ArcPoint& at) const {
   const int m = stages(), count = elements() * m + 1;
-  ArcSamples out{Eigen::VectorXd(count), Eigen::MatrixXd(A, count), Eigen::MatrixXd(D, count),
-                 Eigen::MatrixXd::Zero(P, count), {}};
+  ArcSamples out{Eigen::VectorXd(count),
+                 Eigen::MatrixXd(A, count),
+                 Eigen::MatrixXd(D, count),
+                 Eigen::MatrixXd::Zero(P, count),
+                 {}};
   const Eigen::Map<const Force> n(at.n);
   Force base = Force::Zero();
   Nodes q, g;

@@ -38,9 +38,9 @@ Attachment sized(int configuration, int tangent, int position, int coordinates) 
 
 rod::Quaternion surface_frame(double a, double psi, double chi) {
   using rod::product, rod::rotation;
-  return product(rotation(Vector3d::UnitZ(), a),
-                 product(base_frame(),
-                         product(rotation(Vector3d::UnitX(), psi), rotation(Vector3d::UnitZ(), chi))));
+  return product(
+      rotation(Vector3d::UnitZ(), a),
+      product(base_frame(), product(rotation(Vector3d::UnitX(), psi), rotation(Vector3d::UnitZ(), chi))));
 }
 
 Eigen::Matrix3d surface_spins(double psi, double chi) {
@@ -52,8 +52,8 @@ Eigen::Matrix3d surface_spins(double psi, double chi) {
 }
 
 Vector3d surface_coordinates(const rod::Quaternion& q, double a) {
-  const rod::Quaternion local = rod::product(rod::conjugate(rod::product(rod::rotation(Vector3d::UnitZ(), a),
-                                                                         base_frame())), q);
+  const rod::Quaternion local =
+      rod::product(rod::conjugate(rod::product(rod::rotation(Vector3d::UnitZ(), a), base_frame())), q);
   const Eigen::Matrix3d r = rod::directors(local);  // R₁(ψ) R₃(χ)
   return {a, std::atan2(-r(1, 2), r(2, 2)), std::atan2(-r(0, 1), r(0, 0))};
 }
@@ -258,7 +258,8 @@ void End::retract(const double* w, const double* dw, double* out) const {
 Attachment StrutEnd::attach(Side, const double* w, const Loads& loads) const {
   Attachment at = sized(4, 3, 3, tangent());
   const double sign = arc_ == Side::left ? 1.0 : -1.0;  // the arc that ends here is the right half
-  at.q = rod::product(surface_frame(0.0, 0.0, 0.0), rod::rotation(Vector3d::UnitZ(), 0.5 * sign * loads.twist));
+  at.q =
+      rod::product(surface_frame(0.0, 0.0, 0.0), rod::rotation(Vector3d::UnitZ(), 0.5 * sign * loads.twist));
   at.x(0) = under_thrust_ ? w[0] : sign * (1.0 - loads.shortening) * loads.half_length;
   if (under_thrust_) at.dx(0, 0) = 1.0;
   return at;

@@ -30,8 +30,11 @@ Eigen::VectorXd PlanarLineArc::metric(const ArcPoint&) const { return Eigen::Vec
 
 ArcSamples PlanarLineArc::sample(const ArcPoint& at) const {
   constexpr int count = 33;
-  ArcSamples out{Eigen::VectorXd::LinSpaced(count, 0.0, 1.0), Eigen::MatrixXd(0, count), Eigen::MatrixXd(0, count),
-                 Eigen::MatrixXd(1, count), {}};
+  ArcSamples out{Eigen::VectorXd::LinSpaced(count, 0.0, 1.0),
+                 Eigen::MatrixXd(0, count),
+                 Eigen::MatrixXd(0, count),
+                 Eigen::MatrixXd(1, count),
+                 {}};
   out.displacement.row(0) = at.length * out.sigma.transpose();
   for (int i = 0; i < count; ++i) out.nodes.push_back(i);
   return out;
@@ -56,8 +59,8 @@ TailArc::Derivatives TailArc::derivatives(const ArcPoint& at) const {
   const double tension = n.norm(), root = std::sqrt(stiffness_ * tension);
   const Eigen::Matrix4d form = direction_form(n / tension);
   const Eigen::Matrix<double, 4, 3> t = increments(frame);
-  const double c = frame.dot(form * frame);            // cos ψ
-  const double half = std::sqrt(0.5 * (1.0 + c));      // cos(ψ/2)
+  const double c = frame.dot(form * frame);        // cos ψ
+  const double half = std::sqrt(0.5 * (1.0 + c));  // cos(ψ/2)
   const Eigen::Vector3d dc = 2.0 * t.transpose() * (form * frame);
   const Eigen::Matrix3d d2c = 2.0 * t.transpose() * form * t - 2.0 * c * Eigen::Matrix3d::Identity();
   const double s1 = -root / half, s2 = -0.25 * root / (half * half * half);
@@ -98,15 +101,19 @@ double TailArc::energy(const ArcPoint& at) const {
   const Eigen::Map<const Eigen::VectorXd> n(at.n, dimension_);
   const double tension = n.norm();
   const double* q = starts_here_ ? at.q_a : at.q_b;
-  const double c = dimension_ == 2 ? std::cos(q[0] - std::atan2(at.n[1], at.n[0]))
-                                   : KirchhoffDensity{}.direction(Eigen::Map<const Quaternion>(q)).dot(n) / tension;
+  const double c = dimension_ == 2
+                       ? std::cos(q[0] - std::atan2(at.n[1], at.n[0]))
+                       : KirchhoffDensity{}.direction(Eigen::Map<const Quaternion>(q)).dot(n) / tension;
   return 2.0 * std::sqrt(stiffness_ * tension) * (1.0 - std::sqrt(0.5 * (1.0 + c)));
 }
 
 ArcSamples TailArc::sample(const ArcPoint& at) const {
   constexpr int count = 81;
-  ArcSamples out{Eigen::VectorXd(count), Eigen::MatrixXd(ambient(), count), Eigen::MatrixXd::Zero(tangent(), count),
-                 Eigen::MatrixXd(forces(), count), {}};
+  ArcSamples out{Eigen::VectorXd(count),
+                 Eigen::MatrixXd(ambient(), count),
+                 Eigen::MatrixXd::Zero(tangent(), count),
+                 Eigen::MatrixXd(forces(), count),
+                 {}};
   const double* q0 = starts_here_ ? at.q_a : at.q_b;
   const Eigen::Map<const Eigen::VectorXd> n(at.n, dimension_);
   const double rate = std::sqrt(n.norm() / stiffness_);

@@ -66,7 +66,8 @@ Mode mode_of(RodProblem& problem, const Vector& x, const Vector& p, const Vector
   return mode;
 }
 
-Stability analyse(RodProblem& problem, const Vector& x, const Vector& p, int count, bool modes, SpectrumSolver& solver) {
+Stability analyse(RodProblem& problem, const Vector& x, const Vector& p, int count, bool modes,
+                  SpectrumSolver& solver) {
   const contact::Loads loads = problem.loads(p);
   Stability out;
   out.inertia_index = problem.total_index(x, p);
@@ -78,7 +79,8 @@ Stability analyse(RodProblem& problem, const Vector& x, const Vector& p, int cou
     for (Eigen::Index k = 0; k < spectrum.eigenvalues.size(); ++k) {
       Mode mode;
       if (modes)
-        mode = mode_of(problem, x, p, problem.chain().as_increment(spectrum.eigenvectors.col(k), parity), parity);
+        mode = mode_of(problem, x, p, problem.chain().as_increment(spectrum.eigenvectors.col(k), parity),
+                       parity);
       mode.eigenvalue = spectrum.eigenvalues(k);
       all.push_back(std::move(mode));
     }

@@ -33,7 +33,9 @@ Words planar(const std::string& command, const Words& more = {}) {
   return Words{command, coil(), "--set", "model.kind=planar"} + more;
 }
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 double relative(double value, double exact) { return std::abs(value / exact - 1.0); }
 
@@ -64,7 +66,8 @@ Table read_csv(const fs::path& path) {
 
 /// A short branch, T from 5 to 0.55, in `folder`/run.
 void make_run(const TemporaryFolder& folder) {
-  const Outcome outcome = run_program(planar("continue", {"--set", "continuation.to=0.55", "--out", "run"}), folder.path());
+  const Outcome outcome =
+      run_program(planar("continue", {"--set", "continuation.to=0.55", "--out", "run"}), folder.path());
   BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
 }
 
@@ -79,9 +82,9 @@ BOOST_AUTO_TEST_CASE(solve_prints_what_the_contract_names) {
   const Outcome outcome = run_program(planar("solve", {"--set", "load.tension=1", "--json"}), folder.path());
   BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
   const auto json = nlohmann::json::parse(outcome.out);
-  for (const char* key : {"parameters", "model", "model_reason", "converged", "newton_iterations", "R_tot", "phi_star",
-                          "tilt", "z_span", "energy", "contact", "stability", "invariants", "error_estimate", "mesh",
-                          "seconds"})
+  for (const char* key :
+       {"parameters", "model", "model_reason", "converged", "newton_iterations", "R_tot", "phi_star", "tilt",
+        "z_span", "energy", "contact", "stability", "invariants", "error_estimate", "mesh", "seconds"})
     BOOST_TEST(json.contains(key), key);
   BOOST_TEST(!json.contains("F0"));  // the scene has no friction
   BOOST_TEST(json["parameters"]["T"] == 1.0);
@@ -137,10 +140,15 @@ BOOST_AUTO_TEST_CASE(a_branch_is_on_disk_and_on_the_closed_form) {
     BOOST_TEST(fs::exists(run / file), file);
   const auto info = nlohmann::json::parse(slurp(run / "run.json"));
   BOOST_TEST(info["status"] == "finished");
-  for (const char* key : {"points", "continuation", "stability", "total"}) BOOST_TEST(info["timings"].contains(key), key);
+  for (const char* key : {"points", "continuation", "stability", "total"})
+    BOOST_TEST(info["timings"].contains(key), key);
   const Table table = read_csv(run / "branches.csv");
-  const Words expected = {"branch", "point", "label", "type", "T", "phi", "R_tot", "phi_star", "tilt", "z_span", "energy",
-                          "index", "eigenvalue_1", "ds", "newton_iterations", "error_estimate", "topology"};
+  const Words expected = {"branch",         "point",    "label",
+                          "type",           "T",        "phi",
+                          "R_tot",          "phi_star", "tilt",
+                          "z_span",         "energy",   "index",
+                          "eigenvalue_1",   "ds",       "newton_iterations",
+                          "error_estimate", "topology"};
   BOOST_TEST(table.header == expected, boost::test_tools::per_element());
   BOOST_REQUIRE(table.rows.size() > 5u);
   BOOST_TEST(info["timings"]["points"] == table.rows.size());
@@ -174,7 +182,8 @@ BOOST_AUTO_TEST_CASE(an_existing_folder_is_never_overwritten_unasked) {
 
 BOOST_AUTO_TEST_CASE(contact_events_are_located_and_passed) {
   const TemporaryFolder folder;
-  const Outcome outcome = run_program(planar("continue", {"--out", "run"}), folder.path());  // down to T = 0.1
+  const Outcome outcome =
+      run_program(planar("continue", {"--out", "run"}), folder.path());  // down to T = 0.1
   BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
   const auto special = nlohmann::json::parse(slurp(folder.path() / "run" / "special_points.json"));
   BOOST_REQUIRE(special.size() == 2u);
@@ -204,7 +213,8 @@ BOOST_AUTO_TEST_CASE(what_is_done_with_a_finished_run) {
   BOOST_TEST(spectra.status == 0, spectra.err);
   BOOST_TEST(contains(spectra.out, "1-1 "), spectra.out);
   BOOST_TEST(nlohmann::json::parse(slurp(run / "run.json"))["status"] == "finished");
-  for (const auto& row : read_csv(run / "branches.csv").rows) BOOST_TEST(std::stod(row.at("eigenvalue_1")) > 0.0);
+  for (const auto& row : read_csv(run / "branches.csv").rows)
+    BOOST_TEST(std::stod(row.at("eigenvalue_1")) > 0.0);
 
   const Outcome picture = run_program({"plot", "run", "--format", "png"}, folder.path());
   BOOST_REQUIRE_MESSAGE(picture.status == 0, picture.err);
@@ -215,11 +225,13 @@ BOOST_AUTO_TEST_CASE(any_stored_point_restarts_a_run) {
   const TemporaryFolder folder;
   make_run(folder);
   const Table first = read_csv(folder.path() / "run" / "branches.csv");
-  const Outcome outcome = run_program({"continue", "run", "1-4", "--set", "continuation.to=1", "--out", "again"}, folder.path());
+  const Outcome outcome =
+      run_program({"continue", "run", "1-4", "--set", "continuation.to=1", "--out", "again"}, folder.path());
   BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
   const Table second = read_csv(folder.path() / "again" / "branches.csv");
   BOOST_TEST(std::stod(second.rows.front().at("T")) == std::stod(first.rows.at(3).at("T")));
-  BOOST_TEST(relative(std::stod(second.rows.front().at("R_tot")), std::stod(first.rows.at(3).at("R_tot"))) < 1e-10);
+  BOOST_TEST(relative(std::stod(second.rows.front().at("R_tot")), std::stod(first.rows.at(3).at("R_tot"))) <
+             1e-10);
   BOOST_TEST(std::stod(second.rows.back().at("T")) == 1.0, boost::test_tools::tolerance(1e-12));
   const Outcome unknown = run_program({"continue", "run", "BP7", "--out", "other"}, folder.path());
   BOOST_TEST(unknown.status == 1);
@@ -236,8 +248,9 @@ BOOST_AUTO_TEST_CASE(damaged_run_folders_are_named) {
     for (const char* command : {"verify", "stability", "plot"}) {
       const Outcome outcome = run_program({command, "damaged"}, folder.path());
       BOOST_TEST(outcome.status == 1, command);
-      BOOST_TEST(contains(outcome.err, std::string("windlass: cannot read damaged/") + file + ": it is truncated"),
-                 outcome.err);
+      BOOST_TEST(
+          contains(outcome.err, std::string("windlass: cannot read damaged/") + file + ": it is truncated"),
+          outcome.err);
     }
     fs::remove_all(folder.path() / "damaged");
   }
@@ -269,7 +282,8 @@ BOOST_AUTO_TEST_CASE(no_equilibrium_in_contact) {
   } else {
     BOOST_TEST(outcome.status == 2);
     BOOST_TEST(outcome.out == "");
-    BOOST_TEST(contains(outcome.err, "windlass: no equilibrium in contact was found at T = 0.2"), outcome.err);
+    BOOST_TEST(contains(outcome.err, "windlass: no equilibrium in contact was found at T = 0.2"),
+               outcome.err);
   }
 }
 
@@ -279,7 +293,8 @@ BOOST_AUTO_TEST_CASE(interrupted_runs_stay_readable) {
       planar("continue", {"--set", "continuation.step=1e-4", "--set", "continuation.step_max=1e-4", "--set",
                           "continuation.max_points=1000000", "--out", "run", "--quiet"});
   // A long branch, so that the signal surely meets it; in the foreground, or timeout would signal twice.
-  const Outcome outcome = run_program(endless, folder.path(), "timeout --foreground --preserve-status -s INT 0.6");
+  const Outcome outcome =
+      run_program(endless, folder.path(), "timeout --foreground --preserve-status -s INT 0.6");
   BOOST_TEST(outcome.status == 130, outcome.err);
   const auto info = nlohmann::json::parse(slurp(folder.path() / "run" / "run.json"));
   BOOST_TEST(info["status"] == "interrupted");
@@ -287,19 +302,22 @@ BOOST_AUTO_TEST_CASE(interrupted_runs_stay_readable) {
   BOOST_REQUIRE(!table.rows.empty());
   BOOST_TEST(info["timings"]["points"] == table.rows.size());
   const auto& last = table.rows.back();
-  const Outcome restart = run_program({"continue", "run", last.at("branch") + "-" + last.at("point"), "--set",
-                                       "continuation.to=4", "--set", "continuation.step_max=1", "--out", "rest"},
-                                      folder.path());
+  const Outcome restart =
+      run_program({"continue", "run", last.at("branch") + "-" + last.at("point"), "--set",
+                   "continuation.to=4", "--set", "continuation.step_max=1", "--out", "rest"},
+                  folder.path());
   BOOST_TEST(restart.status == 0, restart.err);
 }
 
 BOOST_AUTO_TEST_CASE(a_full_disk_is_an_answer_and_leaves_what_was_there) {
   const TemporaryFolder folder;
-  const Outcome outcome = run_program(planar("continue", {"--out", "run"}), folder.path(), "eval \"trap '' XFSZ; ulimit -f 200\";");
+  const Outcome outcome = run_program(planar("continue", {"--out", "run"}), folder.path(),
+                                      "eval \"trap '' XFSZ; ulimit -f 200\";");
   BOOST_TEST(outcome.status == 1);
   BOOST_TEST(contains(outcome.err, "windlass: cannot write run/points.h5"), outcome.err);
   BOOST_TEST(read_csv(folder.path() / "run" / "branches.csv").rows.size() > 3u);
-  BOOST_TEST(run_program({"verify", "run"}, folder.path()).status == 0);  // readable: the points committed so far
+  BOOST_TEST(run_program({"verify", "run"}, folder.path()).status ==
+             0);  // readable: the points committed so far
 }
 
 BOOST_AUTO_TEST_SUITE_END()

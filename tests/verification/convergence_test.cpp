@@ -19,11 +19,13 @@ double total_force(bool spatial, int stages, int elements) {
   scene.load.angle = 2.0 * M_PI;
   scene.rod.length = 2.0 * (rod::capstan::phi_star(1.0, 2 * M_PI) + 18.0);
   const chain::Topology topology{{Stretch::line, Stretch::tail}, {}, true, false};
-  const std::vector<chain::ArcMesh> meshes{{chain::uniform_mesh(4), stages}, {chain::uniform_mesh(elements), stages}};
+  const std::vector<chain::ArcMesh> meshes{{chain::uniform_mesh(4), stages},
+                                           {chain::uniform_mesh(elements), stages}};
   equilibrium::RodProblem problem(scene, spatial, topology, meshes, {"load.tension"});
   const double half = 0.5 * scene.rod.length, contact = rod::capstan::phi_star(1.0, 2 * M_PI);
-  Eigen::VectorXd x = chain::guess_state(problem.chain(), topology, problem.rod(),
-                                         chain::capstan_profile(1.0, 2 * M_PI, half, 1.0), {0.0, contact, half});
+  Eigen::VectorXd x =
+      chain::guess_state(problem.chain(), topology, problem.rod(),
+                         chain::capstan_profile(1.0, 2 * M_PI, half, 1.0), {0.0, contact, half});
   const Eigen::VectorXd p = problem.parameters();
   BOOST_REQUIRE(problem.polish(x, p) >= 0);
   return problem.target(problem.chain(), x, problem.loads(p));
@@ -42,7 +44,8 @@ BOOST_AUTO_TEST_CASE(order_is_twice_the_number_of_stages) {
       const double first = std::abs(total_force(spatial, stages, coarse) - exact);
       const double second = std::abs(total_force(spatial, stages, 2 * coarse) - exact);
       const double order = std::log2(first / second);
-      BOOST_TEST_CONTEXT("stages " << stages << ", spatial " << spatial << ", errors " << first << " " << second) {
+      BOOST_TEST_CONTEXT("stages " << stages << ", spatial " << spatial << ", errors " << first << " "
+                                   << second) {
         BOOST_TEST(order > 2 * stages - 0.6);
         BOOST_TEST(order < 2 * stages + 1.5);
       }
@@ -59,10 +62,12 @@ BOOST_AUTO_TEST_CASE(the_estimate_bounds_the_error) {
     scene.rod.length = 2.0 * (rod::capstan::phi_star(0.9, 2 * M_PI) + 20.0);
     scene.model.tolerance = tolerance;
     const chain::Topology topology{{Stretch::line, Stretch::tail}, {}, true, false};
-    equilibrium::RodProblem problem(scene, false, topology, {{}, {chain::uniform_mesh(20), 4}}, {"load.tension"});
+    equilibrium::RodProblem problem(scene, false, topology, {{}, {chain::uniform_mesh(20), 4}},
+                                    {"load.tension"});
     const double half = 0.5 * scene.rod.length, contact = rod::capstan::phi_star(0.9, 2 * M_PI);
-    Eigen::VectorXd x = chain::guess_state(problem.chain(), topology, problem.rod(),
-                                           chain::capstan_profile(0.9, 2 * M_PI, half, 1.0), {0.0, contact, half});
+    Eigen::VectorXd x =
+        chain::guess_state(problem.chain(), topology, problem.rod(),
+                           chain::capstan_profile(0.9, 2 * M_PI, half, 1.0), {0.0, contact, half});
     const Eigen::VectorXd p = problem.parameters();
     BOOST_REQUIRE(problem.polish(x, p) >= 0);
     x = problem.refine(x, p);

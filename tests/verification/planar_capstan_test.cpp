@@ -64,14 +64,16 @@ BOOST_AUTO_TEST_SUITE(planar_capstan)
 BOOST_AUTO_TEST_CASE(infinite_tails_equal_the_closed_form) {
   for (double angle : angles)
     for (double t : tensions(angle))
-      check_against_closed_form(solved(capstan(t, angle, std::numeric_limits<double>::infinity())), t, angle, 1e-10);
+      check_against_closed_form(solved(capstan(t, angle, std::numeric_limits<double>::infinity())), t, angle,
+                                1e-10);
 }
 
 BOOST_AUTO_TEST_CASE(long_finite_rods_equal_the_closed_form) {
   // exp(−2 √T L_tail) must be below the bound: L_tail = 16/√0.51 gives 1e-14.
   for (double angle : angles)
     for (double t : tensions(angle))
-      check_against_closed_form(solved(capstan(t, angle, angle + 2.0 * 18.0 / std::sqrt(std::min(t, 1.0)))), t, angle, 1e-9);
+      check_against_closed_form(solved(capstan(t, angle, angle + 2.0 * 18.0 / std::sqrt(std::min(t, 1.0)))),
+                                t, angle, 1e-9);
 }
 
 BOOST_AUTO_TEST_CASE(finite_length_tends_to_infinite_length_at_the_homoclinic_rate) {

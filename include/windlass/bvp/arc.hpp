@@ -34,20 +34,20 @@ struct ArcPoint {
 
 /// Samples of an arc at all its Lagrange points, ends included.
 struct ArcSamples {
-  Eigen::VectorXd sigma;        ///< scaled arclength in [0, 1]; N
-  Eigen::MatrixXd q;            ///< ambient × N
-  Eigen::MatrixXd momentum;     ///< ∂L/∂q' in the tangent basis; tangent × N (superconvergent at element ends)
-  Eigen::MatrixXd displacement; ///< ∫₀ d ds; forces × N
-  std::vector<int> nodes;       ///< indices of the element ends among the N samples
+  Eigen::VectorXd sigma;     ///< scaled arclength in [0, 1]; N
+  Eigen::MatrixXd q;         ///< ambient × N
+  Eigen::MatrixXd momentum;  ///< ∂L/∂q' in the tangent basis; tangent × N (superconvergent at element ends)
+  Eigen::MatrixXd displacement;  ///< ∫₀ d ds; forces × N
+  std::vector<int> nodes;        ///< indices of the element ends among the N samples
 };
 
 class Arc {
  public:
   virtual ~Arc() = default;
 
-  virtual int ambient() const = 0;   ///< stored numbers per configuration
-  virtual int tangent() const = 0;   ///< degrees of freedom per configuration
-  virtual int forces() const = 0;    ///< components of n
+  virtual int ambient() const = 0;  ///< stored numbers per configuration
+  virtual int tangent() const = 0;  ///< degrees of freedom per configuration
+  virtual int forces() const = 0;   ///< components of n
   virtual int interior_nodes() const { return 0; }
   int interior_ambient() const { return interior_nodes() * ambient(); }
   int interior_tangent() const { return interior_nodes() * tangent(); }
@@ -61,7 +61,9 @@ class Arc {
   virtual void factor(const ArcPoint& at, EndsMatrix& condensed) = 0;
 
   /// Forward elimination: on return `rhs_ends` holds the right-hand side of the condensed system.
-  virtual void reduce(double* rhs_interior, EndsVector& rhs_ends) const { (void)rhs_interior, (void)rhs_ends; }
+  virtual void reduce(double* rhs_interior, EndsVector& rhs_ends) const {
+    (void)rhs_interior, (void)rhs_ends;
+  }
   /// Back substitution: `interior` comes from reduce() and leaves as the solution, given the solution at the ends.
   virtual void expand(double* interior, const EndsVector& solution_ends) const {
     (void)interior, (void)solution_ends;

@@ -24,7 +24,7 @@ class CollocationArc final : public Arc {
   static constexpr int A = Density::ambient;
   static constexpr int D = Density::tangent;
   static constexpr int P = Density::forces;
-  static constexpr int E = 2 * D + P + 1;     ///< ends of an element: left node, right node, n, ℓ
+  static constexpr int E = 2 * D + P + 1;  ///< ends of an element: left node, right node, n, ℓ
 
   CollocationArc(Density density, std::vector<double> mesh, int stages);
 
@@ -51,7 +51,8 @@ class CollocationArc final : public Arc {
 
  private:
   static constexpr int max_points = max_stages + 2;
-  using Nodes = Eigen::Matrix<double, A, Eigen::Dynamic, A == 1 ? Eigen::RowMajor : Eigen::ColMajor, A, max_points>;  ///< one element's configurations
+  using Nodes = Eigen::Matrix<double, A, Eigen::Dynamic, A == 1 ? Eigen::RowMajor : Eigen::ColMajor, A,
+                              max_points>;  ///< one element's configurations
   using Ambient = Eigen::Matrix<double, A, 1>;
   using Force = Eigen::Matrix<double, P, 1>;
 
@@ -80,7 +81,8 @@ class CollocationArc final : public Arc {
 
 /// Builds a CollocationArc with `stages` stages. @throws std::invalid_argument outside [min_stages, max_stages + 1].
 template <class Density>
-std::unique_ptr<Arc> make_collocation_arc(const Density& density, const std::vector<double>& mesh, int stages) {
+std::unique_ptr<Arc> make_collocation_arc(const Density& density, const std::vector<double>& mesh,
+                                          int stages) {
   return std::make_unique<CollocationArc<Density>>(density, mesh, stages);
 }
 

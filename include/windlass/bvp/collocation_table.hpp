@@ -11,13 +11,13 @@
 namespace windlass::bvp {
 
 struct CollocationTable {
-  int stages = 0;              ///< M
-  Eigen::VectorXd gauss;       ///< M Gauss points in (0, 1)
-  Eigen::VectorXd weight;      ///< their weights, sum 1
-  Eigen::VectorXd lobatto;     ///< M + 1 Lagrange points, lobatto(0) = 0, lobatto(M) = 1
-  Eigen::MatrixXd value;       ///< value(g, i) = φ_i(gauss(g)); M × (M+1)
-  Eigen::MatrixXd slope;       ///< slope(g, i) = φ_i'(gauss(g)); M × (M+1)
-  Eigen::MatrixXd integral;    ///< ∫₀^lobatto(i) of the interpolant of values at the Gauss points; (M+1) × M
+  int stages = 0;           ///< M
+  Eigen::VectorXd gauss;    ///< M Gauss points in (0, 1)
+  Eigen::VectorXd weight;   ///< their weights, sum 1
+  Eigen::VectorXd lobatto;  ///< M + 1 Lagrange points, lobatto(0) = 0, lobatto(M) = 1
+  Eigen::MatrixXd value;    ///< value(g, i) = φ_i(gauss(g)); M × (M+1)
+  Eigen::MatrixXd slope;    ///< slope(g, i) = φ_i'(gauss(g)); M × (M+1)
+  Eigen::MatrixXd integral;  ///< ∫₀^lobatto(i) of the interpolant of values at the Gauss points; (M+1) × M
   Eigen::RowVectorXd highest;  ///< coefficient of the Legendre polynomial of degree M; M+1
   Eigen::MatrixXd end_slope;   ///< φ_i' at the Lagrange points, (M+1) × (M+1)
 

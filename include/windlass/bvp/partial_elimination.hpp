@@ -32,8 +32,8 @@ class PartialElimination {
 
  private:
   int eliminated_ = 0, kept_ = 0, negative_ = 0;
-  Eigen::MatrixXd columns_;         ///< L and W, (I+E) × I, below the diagonal
-  Eigen::VectorXd inverse_pivot_;   ///< 1/D
+  Eigen::MatrixXd columns_;        ///< L and W, (I+E) × I, below the diagonal
+  Eigen::VectorXd inverse_pivot_;  ///< 1/D
 };
 
 }  // namespace windlass::bvp

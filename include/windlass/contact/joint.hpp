@@ -35,10 +35,10 @@ enum class Parity { even, odd };
 
 /// How one arc's end hangs on the joint: configuration q and position X with first derivatives.
 struct Attachment {
-  Coordinates q;      ///< ambient configuration
-  SmallMatrix dq;     ///< tangent × coordinates
-  SmallVector x;      ///< position conjugate to the arc's n
-  SmallMatrix dx;     ///< forces × coordinates
+  Coordinates q;   ///< ambient configuration
+  SmallMatrix dq;  ///< tangent × coordinates
+  SmallVector x;   ///< position conjugate to the arc's n
+  SmallMatrix dx;  ///< forces × coordinates
 };
 
 /// State of a rod at one place, from which a joint can take its coordinates.
@@ -53,9 +53,9 @@ class Joint {
  public:
   virtual ~Joint() = default;
   virtual JointKind kind() const = 0;
-  virtual int ambient() const = 0;               ///< stored coordinates
-  virtual int tangent() const = 0;               ///< degrees of freedom
-  virtual bool locates() const { return false; } ///< is the arclength of this joint unknown?
+  virtual int ambient() const = 0;                ///< stored coordinates
+  virtual int tangent() const = 0;                ///< degrees of freedom
+  virtual bool locates() const { return false; }  ///< is the arclength of this joint unknown?
 
   virtual Attachment attach(Side side, const double* w, const Loads& loads) const = 0;
 
@@ -68,9 +68,9 @@ class Joint {
   /// Location condition c(w, g_q) = 0, g_q the action gradient of the free arc at this end.
   struct Location {
     double value = 0.0;
-    Side side = Side::right;   ///< whose gradient it uses
-    SmallVector by_w;          ///< tangent
-    SmallVector by_gradient;   ///< tangent of the arc's configuration (empty: not used)
+    Side side = Side::right;  ///< whose gradient it uses
+    SmallVector by_w;         ///< tangent
+    SmallVector by_gradient;  ///< tangent of the arc's configuration (empty: not used)
   };
   /// @param g_left, g_right  action gradients of the neighbouring arcs with respect to their configuration here
   virtual Location location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const {
@@ -85,7 +85,9 @@ class Joint {
   }
 
   /// Variations of the other parity at a symmetry point: replaces dq and dX of attach(); tangent count by columns.
-  virtual Attachment attach_odd(const double* w, const Loads& loads) const { return attach(Side::right, w, loads); }
+  virtual Attachment attach_odd(const double* w, const Loads& loads) const {
+    return attach(Side::right, w, loads);
+  }
   /// curvature() of the odd attachment; most symmetry points vary linearly.
   virtual void curvature_odd(const double* w, const SmallVector& f, SmallMatrix& out) const {
     (void)w, (void)f, (void)out;

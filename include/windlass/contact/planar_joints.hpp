@@ -39,7 +39,8 @@ class Touch final : public VectorJoint {
 /// Equations 2: balance in a (tension and moment), curvature of the free arc equal to the circle's: |m| = EI.
 class Edge final : public VectorJoint {
  public:
-  explicit Edge(Side line_side, double bending_stiffness = 1.0) : line_(line_side), stiffness_(bending_stiffness) {}
+  explicit Edge(Side line_side, double bending_stiffness = 1.0)
+      : line_(line_side), stiffness_(bending_stiffness) {}
   JointKind kind() const override { return JointKind::edge; }
   int tangent() const override { return 1; }
   bool locates() const override { return true; }

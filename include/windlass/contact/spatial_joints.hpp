@@ -125,7 +125,7 @@ class MidGap final : public VectorJoint {
   struct OddFreedom {
     bool along = false;   ///< x varies (false: sliding of the rod along itself, pinned)
     bool height = false;  ///< z varies (false: rigid translation or rotational phase, pinned)
-    bool spin = true;     ///< spin about d₃ varies (false: rigid spin of an isotropic rod free of end moment)
+    bool spin = true;  ///< spin about d₃ varies (false: rigid spin of an isotropic rod free of end moment)
   };
   explicit MidGap(OddFreedom odd) : odd_(odd) {}
   JointKind kind() const override { return JointKind::mid; }
@@ -157,7 +157,8 @@ class MidTouch final : public VectorJoint {
 /// chain of an isotropic rod). clamped: frame along the pull, as in the untwisted planar rod.
 class End final : public Joint {
  public:
-  End(Side arc_side, bool clamped, bool pin_spin = false) : arc_(arc_side), clamped_(clamped), pinned_(pin_spin) {}
+  End(Side arc_side, bool clamped, bool pin_spin = false)
+      : arc_(arc_side), clamped_(clamped), pinned_(pin_spin) {}
   JointKind kind() const override { return JointKind::end; }
   int ambient() const override { return clamped_ ? 0 : 4; }
   int tangent() const override { return clamped_ ? 0 : pinned_ ? 2 : 3; }

@@ -19,8 +19,8 @@ struct KirchhoffDensity {
   using Vector8 = Eigen::Matrix<double, 8, 1>;
   using Matrix8 = Eigen::Matrix<double, 8, 8>;
 
-  Eigen::Vector3d stiffness = {1.0, 1.0, 2.0 / 3.0};       ///< K = (EI1, EI2, GJ) [EI]
-  Eigen::Vector3d natural = Eigen::Vector3d::Zero();       ///< û, natural strains in the body frame [1/ρ]
+  Eigen::Vector3d stiffness = {1.0, 1.0, 2.0 / 3.0};  ///< K = (EI1, EI2, GJ) [EI]
+  Eigen::Vector3d natural = Eigen::Vector3d::Zero();  ///< û, natural strains in the body frame [1/ρ]
 
   Eigen::Vector3d strain(const Quaternion& q, const Quaternion& slope) const {
     return 2.0 / q.squaredNorm() * (increments(q).transpose() * slope);
@@ -36,8 +36,8 @@ struct KirchhoffDensity {
   }
   double first(const Quaternion& q, const Quaternion& slope, const Eigen::Vector3d& n, Vector8& gz,
                Eigen::Vector3d& d) const;
-  void second(const Quaternion& q, const Quaternion& slope, const Eigen::Vector3d& n, Vector8& gz, Matrix8& hz,
-              Eigen::Vector3d& d, Eigen::Matrix<double, 3, 4>& dd) const;
+  void second(const Quaternion& q, const Quaternion& slope, const Eigen::Vector3d& n, Vector8& gz,
+              Matrix8& hz, Eigen::Vector3d& d, Eigen::Matrix<double, 3, 4>& dd) const;
   Eigen::Matrix<double, 4, 3> basis(const Quaternion& q) const { return increments(q); }
   double radial(const Quaternion& q, const Quaternion& g) const { return -g.dot(q); }
   Quaternion normalised(const Quaternion& q) const { return q.normalized(); }
@@ -94,7 +94,8 @@ inline void KirchhoffDensity::second(const Quaternion& q, const Quaternion& slop
   du.topRows<4>() = -2.0 * inverse * (tp + q * u.transpose());
   du.bottomRows<4>() = 2.0 * inverse * tq;
   hz.noalias() = du * stiffness.asDiagonal() * du.transpose();
-  hz.topLeftCorner<4, 4>() += -2.0 * inverse * form - 2.0 * inverse2 * (gq * q.transpose() + q * gq.transpose()) +
+  hz.topLeftCorner<4, 4>() += -2.0 * inverse * form -
+                              2.0 * inverse2 * (gq * q.transpose() + q * gq.transpose()) +
                               8.0 * g * inverse2 * inverse * q * q.transpose();
   hz.topLeftCorner<4, 4>().diagonal().array() -= 2.0 * g * inverse2;
   const Eigen::Matrix4d mixed = -2.0 * inverse * right_form(moment) - 4.0 * inverse2 * q * bq.transpose();

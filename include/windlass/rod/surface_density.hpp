@@ -40,8 +40,8 @@ struct SurfaceDensity {
         bending_stiffness * slope(0), moment;
     return elastic(q, slope) - n.dot(d);
   }
-  void second(const Vector2& q, const Vector2& slope, const Vector2& n, Vector4& gz, Eigen::Matrix4d& hz, Vector2& d,
-              Eigen::Matrix2d& dd) const {
+  void second(const Vector2& q, const Vector2& slope, const Vector2& n, Vector4& gz, Eigen::Matrix4d& hz,
+              Vector2& d, Eigen::Matrix2d& dd) const {
     first(q, slope, n, gz, d);
     const double c = d(0), s = d(1), moment = gz(3), cos2 = c * c - s * s;
     hz.setZero();

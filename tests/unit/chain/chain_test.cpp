@@ -36,14 +36,16 @@ MatrixXd differences(const chain::Chain& chain, const VectorXd& x, const contact
   for (Eigen::Index k = 0; k < n; ++k) {
     VectorXd step = VectorXd::Zero(n);
     step(k) = h;
-    j.col(k) = (chain.residual(chain.retract(x, step), loads) - chain.residual(chain.retract(x, -step), loads)) / (2 * h);
+    j.col(k) =
+        (chain.residual(chain.retract(x, step), loads) - chain.residual(chain.retract(x, -step), loads)) /
+        (2 * h);
   }
   return j;
 }
 
-constexpr Case cases[] = {{"planar line", false, true, 1.0},   {"planar touches", false, true, 0.4},
-                          {"planar full", false, false, 1.0},  {"spatial line", true, true, 1.0},
-                          {"spatial full", true, false, 2.0},  {"spatial touches", true, true, 0.4}};
+constexpr Case cases[] = {{"planar line", false, true, 1.0},  {"planar touches", false, true, 0.4},
+                          {"planar full", false, false, 1.0}, {"spatial line", true, true, 1.0},
+                          {"spatial full", true, false, 2.0}, {"spatial touches", true, true, 0.4}};
 
 }  // namespace
 
@@ -96,19 +98,27 @@ BOOST_AUTO_TEST_CASE(second_variation_is_symmetric_and_its_inertia_is_the_index)
       if (parity == contact::Parity::odd && !c.half) continue;
       const auto variation = chain.second_variation(s.x, loads, parity);
       const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(MatrixXd(variation.matrix), Eigen::EigenvaluesOnly);
-      const int negative = static_cast<int>((eigen.eigenvalues().array() < 0.0).count());
-      BOOST_TEST_CONTEXT(c.name) BOOST_TEST(chain.index(s.x, loads, parity) == negative - variation.constraints);
+      // A neutral mode counts either way: two touches on the e_x axis let the whole rod turn about it, an odd mode whose
+      // eigenvalue is rounding.
+      const auto below = [&](double bound) {
+        return static_cast<int>((eigen.eigenvalues().array() < bound).count()) - variation.constraints;
+      };
+      BOOST_TEST_CONTEXT(c.name) {
+        BOOST_TEST(chain.index(s.x, loads, parity) >= below(-1e-12));
+        BOOST_TEST(chain.index(s.x, loads, parity) <= below(1e-12));
+      }
     }
   }
 }
 
 BOOST_AUTO_TEST_CASE(index_of_a_full_chain_is_the_sum_of_both_parities_of_its_half) {
   for (double tension : {2.0, 1.0}) {
-    equilibrium::Started half = state({"half", true, true, tension}), full = state({"full", true, false, tension});
+    equilibrium::Started half = state({"half", true, true, tension}),
+                         full = state({"full", true, false, tension});
     const MatrixXd none_half(half.problem->size(), 0), none_full(full.problem->size(), 0);
     half.problem->chain().factor(half.x, half.problem->loads(half.p), none_half, none_half, MatrixXd(0, 0));
     full.problem->chain().factor(full.x, full.problem->loads(full.p), none_full, none_full, MatrixXd(0, 0));
-    BOOST_TEST(half.problem->index(half.x, half.p) == full.problem->index(full.x, full.p));
+    BOOST_TEST(half.problem->total_index(half.x, half.p) == full.problem->total_index(full.x, full.p));
   }
 }
 
