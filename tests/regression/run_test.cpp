@@ -199,6 +199,26 @@ BOOST_AUTO_TEST_CASE(contact_events_are_located_and_passed) {
   BOOST_TEST(certificate.status == 0, certificate.out);
 }
 
+BOOST_AUTO_TEST_CASE(a_diagram_holds_the_branch_that_leaves_the_plane) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run_program({"diagram", coil(), "--out", "run"}, folder.path());
+  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  const auto special = nlohmann::json::parse(slurp(folder.path() / "run" / "special_points.json"));
+  BOOST_REQUIRE(!special.empty());
+  BOOST_TEST(special[0]["type"] == "branch_point");
+  BOOST_TEST(special[0]["mode"]["plane"] == "out");
+  BOOST_TEST(special[0]["mode"]["parity"] == "even");
+  // The program's own value, kept: no other source gives it to more digits.
+  BOOST_TEST(std::abs(special[0]["T"].get<double>() - 1.285936842) < 1e-7);
+  bool helical = false;
+  for (const auto& row : read_csv(folder.path() / "run" / "branches.csv").rows)
+    helical =
+        helical || (row.at("branch") == "2" && std::stod(row.at("z_span")) > 1.0 && row.at("index") == "0");
+  BOOST_TEST(helical);
+  const Outcome certificate = run_program({"verify", "run"}, folder.path());
+  BOOST_TEST(certificate.status == 0, certificate.out);
+}
+
 BOOST_AUTO_TEST_CASE(what_is_done_with_a_finished_run) {
   const TemporaryFolder folder;
   make_run(folder);
