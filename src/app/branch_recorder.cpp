@@ -23,7 +23,8 @@ const char* type_name(PointType type) {
 }
 
 bool special(const Point& point) {
-  return point.type == PointType::fold || point.type == PointType::branch_point || point.type == PointType::event;
+  return point.type == PointType::fold || point.type == PointType::branch_point ||
+         point.type == PointType::event;
 }
 
 }  // namespace
@@ -40,7 +41,8 @@ void BranchRecorder::add_eigenvalues(Solution& solution, const Point& point) {
   if (spectra_ || special(point)) {
     try {
       stability = stability::analyse(problem, point.x, point.p, 1, special(point), solver_);
-    } catch (const std::exception&) {  // at a singular point the spectrum may be out of reach; the index is not
+    } catch (
+        const std::exception&) {  // at a singular point the spectrum may be out of reach; the index is not
     }
   }
   stability.index = stability.inertia_index = problem.total_index(point.x, point.p);
@@ -64,8 +66,8 @@ void BranchRecorder::on_point(const Branch& branch, const Point& point) {
     writer_.add_point(last_, solution);
     ++points_;
     if (progress_.due())
-      progress_.update(fmt::format("branch {}  point {}  T = {:.6g}  phi = {:.6g}  index {}", branch.id + 1, in_branch_,
-                                   solution.T, solution.phi, point.index));
+      progress_.update(fmt::format("branch {}  point {}  T = {:.6g}  phi = {:.6g}  index {}", branch.id + 1,
+                                   in_branch_, solution.T, solution.phi, point.index));
   } catch (const std::domain_error&) {  // an event at the very edge of the domain: nothing to store
   }
   resumed_ = Clock::now();
@@ -87,7 +89,8 @@ void BranchRecorder::on_special_point(const Branch& branch, const Point& point) 
     auto& problem = dynamic_cast<RodProblem&>(*point.problem);
     equilibrium::Mode mode;
     if (point.branch_point && point.branch_point->polished && point.branch_point->null.right.cols() > 0) {
-      mode = stability::mode_of(problem, point.x, point.p, point.branch_point->null.right.col(0), contact::Parity::even);
+      mode = stability::mode_of(problem, point.x, point.p, point.branch_point->null.right.col(0),
+                                contact::Parity::even);
     } else {
       // Not a zero of the half chain's equations: an odd mode, which only the full chain can follow.
       try {
@@ -99,8 +102,8 @@ void BranchRecorder::on_special_point(const Branch& branch, const Point& point) 
     entry.mode = output::SpecialMode{mode.plane, mode.parity};
   }
   writer_.add_special_point(entry);
-  progress_.note(fmt::format("{:<4} {:<12} T = {:.10g}  phi = {:.10g}  precision {:.1e}{}{}", entry.label, entry.type,
-                             entry.T, entry.phi, entry.precision,
+  progress_.note(fmt::format("{:<4} {:<12} T = {:.10g}  phi = {:.10g}  precision {:.1e}{}{}", entry.label,
+                             entry.type, entry.T, entry.phi, entry.precision,
                              entry.mode ? "  " + entry.mode->plane + "-of-plane, " + entry.mode->parity : "",
                              entry.after.empty() ? "" : "  " + entry.before + " -> " + entry.after));
   resumed_ = Clock::now();
@@ -110,8 +113,8 @@ void BranchRecorder::on_branch_end(const Branch& branch) {
   pause();
   if (branch.end.lost()) {
     ++lost_;
-    writer_.add_lost_branch({branch.id + 1, branch.origin.empty() ? "start" : branch.origin, last_.T, last_.phi,
-                             branch.end.reason});
+    writer_.add_lost_branch({branch.id + 1, branch.origin.empty() ? "start" : branch.origin, last_.T,
+                             last_.phi, branch.end.reason});
   }
   progress_.note(fmt::format("branch {}: {} points, {}", branch.id + 1, branch.points, branch.end.reason));
   resumed_ = Clock::now();
@@ -131,15 +134,18 @@ int BranchRecorder::finish(const std::vector<std::string>& lost, bool quiet, boo
   summary["lost"] = lost;
   const double total = std::chrono::duration<double>(Clock::now() - begin_).count();
   const bool incomplete = !lost.empty() || lost_ > 0;
-  writer_.finish(stopped_ ? "interrupted" : incomplete ? "incomplete" : "finished",
+  writer_.finish(stopped_     ? "interrupted"
+                 : incomplete ? "incomplete"
+                              : "finished",
                  {points_, continuation_, stability_, total}, summary);
   if (json) {
     nlohmann::ordered_json out = output::to_json(writer_.info());
-    for (const auto& special : writer_.special_points()) out["special_points"].push_back(output::to_json(special));
+    for (const auto& special : writer_.special_points())
+      out["special_points"].push_back(output::to_json(special));
     std::printf("%s\n", out.dump(2).c_str());
   } else if (!quiet) {
-    std::printf("%d points, %zu special points, %.3f ms a point (spectra %.3f ms a point more) -> %s\n", points_,
-                writer_.special_points().size(), 1e3 * continuation_ / std::max(1, points_),
+    std::printf("%d points, %zu special points, %.3f ms a point (spectra %.3f ms a point more) -> %s\n",
+                points_, writer_.special_points().size(), 1e3 * continuation_ / std::max(1, points_),
                 1e3 * stability_ / std::max(1, points_), writer_.folder().string().c_str());
     for (const std::string& reason : lost) std::printf("lost: %s\n", reason.c_str());
   }

@@ -15,14 +15,18 @@ namespace {
 /// sees it, and its flat states are the planar ones.
 bool needs_space(const scene::Scene& scene) {
   switch (scene.model.kind) {
-    case scene::ModelKind::planar: return false;
-    case scene::ModelKind::kirchhoff: return true;
+    case scene::ModelKind::planar:
+      return false;
+    case scene::ModelKind::kirchhoff:
+      return true;
     case scene::ModelKind::closed_form:
       throw InputError("model.kind = \"closed_form\": a branch needs \"planar\", \"kirchhoff\" or \"auto\"");
-    case scene::ModelKind::automatic: break;
+    case scene::ModelKind::automatic:
+      break;
   }
   return !scene.has_cylinder || scene.load.angle > M_PI ||
-         (scene.continuation && scene.continuation->parameter == "load.angle" && scene.continuation->to > M_PI);
+         (scene.continuation && scene.continuation->parameter == "load.angle" &&
+          scene.continuation->to > M_PI);
 }
 
 continuation::Options options_of(const scene::Scene& scene, double from) {
@@ -62,12 +66,14 @@ BranchSetup set_up_branch(const BranchRequest& request) {
     setup.start.x = stored.restart.state;
     setup.start.p = setup.start.problem->parameters();
   } else {
-    if (scene.continuation->from != 0.0 || key == "load.angle") scene::set_parameter(scene, key, scene.continuation->from);
+    if (scene.continuation->from != 0.0 || key == "load.angle")
+      scene::set_parameter(scene, key, scene.continuation->from);
     // The straight strut's thrust is undetermined; its buckled states end there.
     constexpr double least_shortening = 1e-5;
     if (key == "ends.shortening" && scene.ends.shortening.value_or(0.0) < least_shortening)
       scene.ends.shortening = least_shortening;
-    setup.start = equilibrium::cold_start(scene, needs_space(scene), scene.model.symmetry != scene::Symmetry::none, {key});
+    setup.start = equilibrium::cold_start(scene, needs_space(scene),
+                                          scene.model.symmetry != scene::Symmetry::none, {key});
   }
   setup.options = options_of(scene, setup.start.p(0));
   return setup;
@@ -80,7 +86,8 @@ output::RunWriter open_run(const BranchRequest& request, const std::string& comm
   options.version = WINDLASS_VERSION;
   if (request.scene.continuation) {
     const std::string& key = request.scene.continuation->parameter;
-    if (key != "load.tension" && key != "load.angle" && key != "ends.shortening") options.extra_parameter = key;
+    if (key != "load.tension" && key != "load.angle" && key != "ends.shortening")
+      options.extra_parameter = key;
   }
   return output::RunWriter::create(output_folder(request.common, request.scene), request.scene, options);
 }

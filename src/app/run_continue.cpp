@@ -17,7 +17,8 @@ int run_continue(const BranchRequest& request) {
     ++branch.points;
     recorder.on_point(branch, *point);
     using continuation::PointType;
-    if (point->type == PointType::fold || point->type == PointType::branch_point || point->type == PointType::event)
+    if (point->type == PointType::fold || point->type == PointType::branch_point ||
+        point->type == PointType::event)
       recorder.on_special_point(branch, *point);
     if (recorder.should_stop()) walker.stop("interrupted");
   }

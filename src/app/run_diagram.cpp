@@ -10,8 +10,9 @@ int run_diagram(const BranchRequest& request) {
   output::RunWriter writer = open_run(request, "diagram");
   BranchRecorder recorder(writer, false, request.common.quiet);
   recorder.start_clock();
-  const continuation::Diagram diagram = continuation::trace_diagram(
-      setup.start.problem, setup.start.x, setup.start.p, setup.options, continuation::DiagramOptions{}, recorder);
+  const continuation::Diagram diagram =
+      continuation::trace_diagram(setup.start.problem, setup.start.x, setup.start.p, setup.options,
+                                  continuation::DiagramOptions{}, recorder);
   return recorder.finish(diagram.lost, request.common.quiet, request.common.json);
 }
 

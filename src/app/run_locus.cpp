@@ -21,7 +21,9 @@ using equilibrium::RodProblem;
 namespace {
 
 PointType type_of(const std::string& type) {
-  return type == "fold" ? PointType::fold : type == "branch_point" ? PointType::branch_point : PointType::event;
+  return type == "fold"           ? PointType::fold
+         : type == "branch_point" ? PointType::branch_point
+                                  : PointType::event;
 }
 
 /// The special point located again, with everything the locus needs, by walking over it from either side.
@@ -43,12 +45,14 @@ std::optional<continuation::Point> relocate(const scene::Scene& scene, const equ
     options.newton_tolerance = 1e-9;
     continuation::Walker walker(problem, x, p, options);
     while (const auto point = walker.step())
-      if (point->type == type && std::abs(point->p(0) - at(0)) < 1e-5 * std::max(1.0, std::abs(at(0)))) return *point;
+      if (point->type == type && std::abs(point->p(0) - at(0)) < 1e-5 * std::max(1.0, std::abs(at(0))))
+        return *point;
   }
   return std::nullopt;
 }
 
-continuation::LocusOptions options_of(const LocusRequest& request, const continuation::Vector& p, int direction) {
+continuation::LocusOptions options_of(const LocusRequest& request, const continuation::Vector& p,
+                                      int direction) {
   const bool angle = request.second == "load.angle";
   continuation::LocusOptions options;
   options.options.newton_tolerance = 1e-9;
@@ -57,7 +61,8 @@ continuation::LocusOptions options_of(const LocusRequest& request, const continu
   options.options.lower = 1e-3;
   options.options.direction = direction;
   // Angles up to 8π, from where the contact arc vanishes; other parameters within a decade of where they are.
-  const double low = request.from.value_or(angle ? 0.05 : 0.1 * p(1)), high = request.to.value_or(angle ? 8.0 * M_PI : 10.0 * p(1));
+  const double low = request.from.value_or(angle ? 0.05 : 0.1 * p(1)),
+               high = request.to.value_or(angle ? 8.0 * M_PI : 10.0 * p(1));
   options.second_lower = std::min(low, high);
   options.second_upper = std::max(low, high);
   options.second_scale = angle ? 2.0 : std::max(1e-3, 0.2 * std::abs(p(1)));
@@ -78,13 +83,15 @@ int run_locus(const LocusRequest& request) {
   if (stored.has_cylinder) scene.load.tension = stored.T, scene.load.angle = stored.phi;
   const auto special = relocate(scene, stored, {first, request.second}, type_of(row.type));
   if (!special)
-    throw std::runtime_error("the special point " + request.label + " could not be located again from its stored state");
+    throw std::runtime_error("the special point " + request.label +
+                             " could not be located again from its stored state");
 
   output::WriterOptions writer_options;
   writer_options.force = request.common.force;
   writer_options.command = "locus";
   writer_options.version = WINDLASS_VERSION;
-  if (request.second != "load.angle" && request.second != "load.tension") writer_options.extra_parameter = request.second;
+  if (request.second != "load.angle" && request.second != "load.tension")
+    writer_options.extra_parameter = request.second;
   CommonOptions common = request.common;
   if (common.out.empty()) common.out = request.run.string() + "-locus-" + request.label;
   output::RunWriter writer = output::RunWriter::create(common.out, scene, writer_options);
@@ -99,25 +106,32 @@ int run_locus(const LocusRequest& request) {
       problem.error_estimate(point->x, point->p);
       equilibrium::Solution solution = equilibrium::record(problem, point->x, point->p);
       solution.model_reason = "a point of the locus of " + request.label;
-      output::BranchRow out = output::make_row(solution, direction > 0 ? 1 : 2, ++in_branch, "",
-                                               point->type == LocusPoint::Type::event ? "contact" : "regular", point->ds);
+      output::BranchRow out =
+          output::make_row(solution, direction > 0 ? 1 : 2, ++in_branch, "",
+                           point->type == LocusPoint::Type::event ? "contact" : "regular", point->ds);
       out.newton_iterations = point->newton_iterations;
       if (!writer_options.extra_parameter.empty()) out.parameter = point->p(1);
       writer.add_point(out, solution);
       ++points;
       if (!request.common.quiet && !request.common.json)
-        std::printf("%-10s T = %.10g  phi = %.10g  R_tot = %.8g  %s%s\n", request.label.c_str(), solution.T, solution.phi,
-                    solution.R_tot, solution.topology.c_str(), point->note.empty() ? "" : ("  " + point->note).c_str());
+        std::printf("%-10s T = %.10g  phi = %.10g  R_tot = %.8g  %s%s\n", request.label.c_str(), solution.T,
+                    solution.phi, solution.R_tot, solution.topology.c_str(),
+                    point->note.empty() ? "" : ("  " + point->note).c_str());
       stopped = stopped || interrupted_by_user();
       if (stopped) walker.stop("interrupted");
     }
-    progress.note("locus, direction " + std::string(direction > 0 ? "up" : "down") + ": " + walker.end().reason);
+    progress.note("locus, direction " + std::string(direction > 0 ? "up" : "down") + ": " +
+                  walker.end().reason);
     if (!walker.end().lost()) continue;
     lost = true;
-    writer.add_lost_branch({direction > 0 ? 1 : 2, request.label, writer.rows().empty() ? 0.0 : writer.rows().back().T,
+    writer.add_lost_branch({direction > 0 ? 1 : 2, request.label,
+                            writer.rows().empty() ? 0.0 : writer.rows().back().T,
                             writer.rows().empty() ? 0.0 : writer.rows().back().phi, walker.end().reason});
   }
-  writer.finish(stopped ? "interrupted" : lost ? "incomplete" : "finished", {points, 0.0, 0.0, 0.0}, {{"points", points}});
+  writer.finish(stopped ? "interrupted"
+                : lost  ? "incomplete"
+                        : "finished",
+                {points, 0.0, 0.0, 0.0}, {{"points", points}});
   if (request.common.json) std::printf("%s\n", output::to_json(writer.info()).dump(2).c_str());
   return stopped ? interrupted : lost ? not_finished : done;
 }

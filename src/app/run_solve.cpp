@@ -18,16 +18,21 @@ using equilibrium::Solution;
 
 void add_stability(Solution& solution, const scene::Scene& scene) {
   const auto begin = std::chrono::steady_clock::now();
-  const std::string key = scene.has_cylinder ? "load.tension" : scene.ends.shortening ? "ends.shortening" : "load.thrust";
+  const std::string key = scene.has_cylinder      ? "load.tension"
+                          : scene.ends.shortening ? "ends.shortening"
+                                                  : "load.thrust";
   auto problem = equilibrium::reopen(scene, solution.restart, {key});
   stability::SpectrumSolver solver;
-  solution.stability = stability::analyse(*problem, solution.restart.state, problem->parameters(), 6, true, solver);
-  solution.seconds_stability = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  solution.stability =
+      stability::analyse(*problem, solution.restart.state, problem->parameters(), 6, true, solver);
+  solution.seconds_stability =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   solution.seconds_total = solution.seconds_solve + solution.seconds_stability;
 }
 
 void print_physical(const Solution& solution, const scene::Units& units) {
-  std::printf("  %-12s %.6g N (%.4g g hung)\n", "pull", solution.T * units.force, solution.T * units.force / 9.80665e-3);
+  std::printf("  %-12s %.6g N (%.4g g hung)\n", "pull", solution.T * units.force,
+              solution.T * units.force / 9.80665e-3);
   std::printf("  %-12s %.6g N\n", "R_tot", solution.R_tot * units.force);
   if (solution.F0) std::printf("  %-12s %.6g N\n", "F0", *solution.F0 * units.force);
   std::printf("  %-12s %.6g mm\n", "z_span", solution.z_span * units.length * 1e3);
@@ -39,13 +44,16 @@ void print_summary(const Solution& solution, const scene::Scene& scene) {
   if (solution.has_cylinder) {
     std::printf("  %-12s T = %.10g, phi = %.10g\n", "loads", solution.T, solution.phi);
     std::printf("  %-12s %s\n", "contact", solution.topology.c_str());
-    std::printf("  %-12s %.12g (relative error about %.1e)\n", "R_tot", solution.R_tot, solution.error_estimate);
+    std::printf("  %-12s %.12g (relative error about %.1e)\n", "R_tot", solution.R_tot,
+                solution.error_estimate);
     if (solution.F0) std::printf("  %-12s %.12g\n", "F0", *solution.F0);
-    std::printf("  %-12s %.12g\n  %-12s %.6g, z_span %.6g\n", "phi_star", solution.phi_star, "tilt", solution.tilt,
-                solution.z_span);
+    std::printf("  %-12s %.12g\n  %-12s %.6g, z_span %.6g\n", "phi_star", solution.phi_star, "tilt",
+                solution.tilt, solution.z_span);
   } else {
-    std::printf("  %-12s %.12g (relative error about %.1e)\n", "end_force", solution.end_force, solution.error_estimate);
-    std::printf("  %-12s %.12g\n  %-12s %.12g\n", "end_moment", solution.end_moment, "shortening", solution.shortening);
+    std::printf("  %-12s %.12g (relative error about %.1e)\n", "end_force", solution.end_force,
+                solution.error_estimate);
+    std::printf("  %-12s %.12g\n  %-12s %.12g\n", "end_moment", solution.end_moment, "shortening",
+                solution.shortening);
   }
   std::printf("  %-12s %.12g\n", "energy", solution.energy);
   if (solution.stability) {
@@ -74,7 +82,8 @@ int run_solve(const SolveRequest& request) {
     output::RunWriter writer =
         output::RunWriter::create(output_folder(request.common, request.scene), request.scene, options);
     writer.add_point(output::make_row(solution, 1, 1, "S1", "start", 0.0), solution);
-    writer.finish("finished", {1, solution.seconds_solve, solution.seconds_stability, solution.seconds_total}, {});
+    writer.finish("finished", {1, solution.seconds_solve, solution.seconds_stability, solution.seconds_total},
+                  {});
   }
   if (request.common.json)
     std::printf("%s\n", output::to_json(solution, request.scene).dump(2).c_str());

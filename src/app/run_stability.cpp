@@ -28,23 +28,27 @@ int run_stability(const RunRequest& request) {
     scene::Scene at = scene;
     if (stored.has_cylinder) at.load.tension = stored.T, at.load.angle = stored.phi;
     if (!stored.has_cylinder && at.ends.shortening) at.ends.shortening = stored.shortening;
-    const std::string parameter = stored.has_cylinder ? "load.tension" : at.ends.shortening ? "ends.shortening" : "load.thrust";
+    const std::string parameter = stored.has_cylinder  ? "load.tension"
+                                  : at.ends.shortening ? "ends.shortening"
+                                                       : "load.thrust";
     auto problem = equilibrium::reopen(at, stored.restart, {parameter});
-    const equilibrium::Stability stability = stability::analyse(*problem, stored.restart.state, problem->parameters(),
-                                                                request.eigenvalues, true, solver);
+    const equilibrium::Stability stability = stability::analyse(
+        *problem, stored.restart.state, problem->parameters(), request.eigenvalues, true, solver);
     writer.set_stability(name, stability);
     // At a singular point the sign of the vanishing eigenvalue is rounding, and so is the count.
     double nearest = 1.0;
     for (double value : stability.eigenvalues) nearest = std::min(nearest, std::abs(value));
     disagreement |= nearest > 1e-9 && !stability.degenerate && stability.index != stability.inertia_index;
-    nlohmann::ordered_json entry = {{"name", name}, {"index", stability.index},
+    nlohmann::ordered_json entry = {{"name", name},
+                                    {"index", stability.index},
                                     {"inertia_index", stability.inertia_index},
                                     {"eigenvalues", stability.eigenvalues}};
     if (!request.common.json && !request.common.quiet) {
       std::printf("%-8s index %d (inertia %d) ", name.c_str(), stability.index, stability.inertia_index);
       for (double value : stability.eigenvalues) std::printf(" %.8g", value);
       if (!stability.modes.empty())
-        std::printf("  lowest: %s-of-plane, %s", stability.modes[0].plane.c_str(), stability.modes[0].parity.c_str());
+        std::printf("  lowest: %s-of-plane, %s", stability.modes[0].plane.c_str(),
+                    stability.modes[0].parity.c_str());
       std::printf("\n");
     }
     report["points"].push_back(entry);
@@ -52,7 +56,8 @@ int run_stability(const RunRequest& request) {
   if (!request.label.empty() && !found) run.points.get(request.label);  // throws, listing what there is
   writer.commit();
   if (request.common.json) std::printf("%s\n", report.dump(2).c_str());
-  if (disagreement) std::fprintf(stderr, "windlass: at some points SLEPc and the inertia disagree on the index\n");
+  if (disagreement)
+    std::fprintf(stderr, "windlass: at some points SLEPc and the inertia disagree on the index\n");
   return disagreement ? not_finished : done;
 }
 

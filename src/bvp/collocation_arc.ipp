@@ -277,6 +277,7 @@ ArcSamples CollocationArc<Density>::sample(const ArcPoint& at) const {
                  Eigen::MatrixXd(D, count),
                  Eigen::MatrixXd::Zero(P, count),
                  {}};
+  out.slope.resize(D, count);
   const Eigen::Map<const Force> n(at.n);
   Force base = Force::Zero();
   Nodes q, g;
@@ -303,6 +304,7 @@ ArcSamples CollocationArc<Density>::sample(const ArcPoint& at) const {
       Force d;
       density_.first(q.col(i), slope, n, gz, d);
       out.momentum.col(k) = density_.basis(q.col(i)).transpose() * gz.template tail<A>();
+      out.slope.col(k) = density_.basis(q.col(i)).transpose() * slope;
     }
     out.momentum.col(e * m) = -density_.basis(q.col(0)).transpose() * g.col(0);
     out.momentum.col(e * m + m) = density_.basis(q.col(m)).transpose() * g.col(m);

@@ -63,7 +63,8 @@ Chain::Numbering Chain::number(Purpose purpose) const {
     }
     // In a variation a touch keeps its location as a direction of maximum; the edge of a line stays where it is,
     // because moving it costs nothing to second order.
-    const bool kept = joint.locates() && (purpose == Purpose::equilibrium || joint.kind() == JointKind::touch);
+    const bool kept =
+        joint.locates() && (purpose == Purpose::equilibrium || joint.kind() == JointKind::touch);
     n.arclength.push_back(kept ? n.size++ : -1);
     // A touch at the symmetry point holds its location (sliding is pinned), but its direction of maximum counts.
     n.constraints += kept || (odd_end && joint.kind() == JointKind::touch);
@@ -123,13 +124,15 @@ VectorXd Chain::retract(const VectorXd& x, const VectorXd& dx) const {
   }
   for (int i = 0; i < link_count(); ++i) {
     const Arc& arc = *links_[i].arc;
-    if (links_[i].pull == 0) out.segment(force_at_[i], arc.forces()) += dx.segment(numbering_.force[i], arc.forces());
+    if (links_[i].pull == 0)
+      out.segment(force_at_[i], arc.forces()) += dx.segment(numbering_.force[i], arc.forces());
     if (arc.ambient() == 4) {
       for (int k = 0; k < arc.interior_nodes(); ++k)
         out.segment<4>(interior_at_[i] + 4 * k) =
             rod::retract(x.segment<4>(interior_at_[i] + 4 * k), dx.segment<3>(interior_row_[i] + 3 * k));
     } else {
-      out.segment(interior_at_[i], arc.interior_ambient()) += dx.segment(interior_row_[i], arc.interior_tangent());
+      out.segment(interior_at_[i], arc.interior_ambient()) +=
+          dx.segment(interior_row_[i], arc.interior_tangent());
     }
   }
   return out;
@@ -156,11 +159,14 @@ VectorXd Chain::residual(const VectorXd& x, const Loads& loads) const {
     const int d = arc.tangent(), forces = arc.forces();
     const Eigen::Index left = numbering_.coordinate[i], right = numbering_.coordinate[i + 1];
     f.segment(left, p.left.dq.cols()) += p.left.dq.transpose() * g.head(d) - p.left.dx.transpose() * p.n;
-    f.segment(right, p.right.dq.cols()) += p.right.dq.transpose() * g.segment(d, d) + p.right.dx.transpose() * p.n;
-    if (links_[i].pull == 0) f.segment(numbering_.force[i], forces) = g.segment(2 * d, forces) + p.right.x - p.left.x;
+    f.segment(right, p.right.dq.cols()) +=
+        p.right.dq.transpose() * g.segment(d, d) + p.right.dx.transpose() * p.n;
+    if (links_[i].pull == 0)
+      f.segment(numbering_.force[i], forces) = g.segment(2 * d, forces) + p.right.x - p.left.x;
   }
   for (int j = 0; j < joint_count(); ++j) {
-    f.segment(numbering_.coordinate[j], joints_[j]->tangent()) += joints_[j]->dead_load(coordinates(x, j), loads);
+    f.segment(numbering_.coordinate[j], joints_[j]->tangent()) +=
+        joints_[j]->dead_load(coordinates(x, j), loads);
     if (numbering_.arclength[j] >= 0) f(numbering_.arclength[j]) = location(x, j).value;
   }
   return f;
@@ -172,7 +178,8 @@ double Chain::nodal_norm(const VectorXd& dx) const {
     const Arc& arc = *links_[i].arc;
     const int d = arc.tangent();
     for (int e = 1; e < arc.elements(); ++e)
-      largest = std::max(largest, dx.segment(interior_row_[i] + (e * arc.stages() - 1) * d, d).cwiseAbs().maxCoeff());
+      largest = std::max(largest,
+                         dx.segment(interior_row_[i] + (e * arc.stages() - 1) * d, d).cwiseAbs().maxCoeff());
   }
   return largest;
 }

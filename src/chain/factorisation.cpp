@@ -39,7 +39,8 @@ int negative_eigenvalues(MatrixXd a) {
 
 }  // namespace
 
-Attachment Chain::attachment(Purpose purpose, const VectorXd& x, const Loads& loads, int joint, Side side) const {
+Attachment Chain::attachment(Purpose purpose, const VectorXd& x, const Loads& loads, int joint,
+                             Side side) const {
   if (purpose == Purpose::odd && joint == 0) return joints_[0]->attach_odd(coordinates(x, 0), loads);
   return joints_[joint]->attach(side, coordinates(x, joint), loads);
 }
@@ -83,7 +84,8 @@ Chain::Local Chain::local(Purpose purpose, const Numbering& numbering, const Vec
       l.rows(ends - 1, k) = sign;
     } else {
       const Joint::Location c = location(x, joint);
-      if (c.side == arc_side && c.by_gradient.size() == d) l.rows.col(k).segment(first_end, d) = c.by_gradient;
+      if (c.side == arc_side && c.by_gradient.size() == d)
+        l.rows.col(k).segment(first_end, d) = c.by_gradient;
     }
     ++k;
   };
@@ -101,12 +103,14 @@ Chain::Local Chain::local(Purpose purpose, const Numbering& numbering, const Vec
   return l;
 }
 
-void Chain::add_joint_terms(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads,
-                            int link, const bvp::EndsVector& gradient, MatrixXd& dense) const {
+void Chain::add_joint_terms(Purpose purpose, const Numbering& numbering, const VectorXd& x,
+                            const Loads& loads, int link, const bvp::EndsVector& gradient,
+                            MatrixXd& dense) const {
   const Arc& arc = *links_[link].arc;
   const int d = arc.tangent();
   const SmallVector n = force(x, loads, link);
-  for (const Side side : {Side::right, Side::left}) {  // of the joint: the arc starts at its right, ends at its left
+  for (const Side side :
+       {Side::right, Side::left}) {  // of the joint: the arc starts at its right, ends at its left
     const int joint = side == Side::right ? link : link + 1;
     const double sign = side == Side::right ? -1.0 : 1.0;
     const Attachment at = attachment(purpose, x, loads, joint, side);
@@ -129,11 +133,13 @@ void Chain::add_locations(const VectorXd& x, MatrixXd& dense) const {
   for (int j = 0; j < joint_count(); ++j) {
     const Eigen::Index row = numbering_.arclength[j];
     if (row < 0) continue;
-    dense.row(row).segment(numbering_.coordinate[j], joints_[j]->tangent()) += location(x, j).by_w.transpose();
+    dense.row(row).segment(numbering_.coordinate[j], joints_[j]->tangent()) +=
+        location(x, j).by_w.transpose();
   }
 }
 
-void Chain::factor(const VectorXd& x, const Loads& loads, const MatrixXd& b, const MatrixXd& c, const MatrixXd& d) {
+void Chain::factor(const VectorXd& x, const Loads& loads, const MatrixXd& b, const MatrixXd& c,
+                   const MatrixXd& d) {
   std::vector<Placed> placed;
   VectorXd scratch(size_);
   for (int i = 0; i < link_count(); ++i) {
@@ -147,7 +153,8 @@ void Chain::factor(const VectorXd& x, const Loads& loads, const MatrixXd& b, con
   for (int i = 0; i < link_count(); ++i) {
     locals_[i] = local(Purpose::equilibrium, numbering_, x, loads, i);
     const Local& l = locals_[i];
-    const MatrixXd share = l.rows.transpose() * with_commutator(*links_[i].arc, condensed_[i], gradients_[i]) * l.columns;
+    const MatrixXd share =
+        l.rows.transpose() * with_commutator(*links_[i].arc, condensed_[i], gradients_[i]) * l.columns;
     for (std::size_t r = 0; r < l.dofs.size(); ++r)
       for (std::size_t s = 0; s < l.dofs.size(); ++s) dense(l.dofs[r], l.dofs[s]) += share(r, s);
     add_joint_terms(Purpose::equilibrium, numbering_, x, loads, i, gradients_[i], dense);
@@ -245,7 +252,8 @@ VectorXd Chain::solve(const VectorXd& f, const VectorXd& g, bool transposed) con
 MatrixXd Chain::variation_matrix(Purpose purpose, const Numbering& numbering, const VectorXd& x,
                                  const Loads& loads) const {
   MatrixXd dense = MatrixXd::Zero(numbering.size, numbering.size);
-  for (int i = 0; i < link_count(); ++i) add_joint_terms(purpose, numbering, x, loads, i, gradients_[i], dense);
+  for (int i = 0; i < link_count(); ++i)
+    add_joint_terms(purpose, numbering, x, loads, i, gradients_[i], dense);
   return dense;
 }
 

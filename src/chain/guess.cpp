@@ -44,8 +44,8 @@ void adopt_interior(const RodKind& rod, Stretch stretch, const Arc& arc, const P
   }
 }
 
-void set_planar(Piece& piece, Eigen::Index k, double heading, const Eigen::Vector2d& r, const Eigen::Vector2d& n,
-                double m) {
+void set_planar(Piece& piece, Eigen::Index k, double heading, const Eigen::Vector2d& r,
+                const Eigen::Vector2d& n, double m) {
   piece.heading(k) = heading;
   piece.q.col(k) = contact::spatial::surface_frame(heading, 0.0, 0.0);
   piece.r.col(k) << r, 0.0;
@@ -126,7 +126,8 @@ Profile capstan_profile(double tension, double angle, double half_length, double
       const double a = contact * k / (line_samples - 1);
       line.s(k) = line.angle(k) = a;
       line.p(k) = pull;
-      set_planar(line, k, a, {std::sin(a), -std::cos(a)}, pull * Eigen::Vector2d(std::cos(a), std::sin(a)), b);
+      set_planar(line, k, a, {std::sin(a), -std::cos(a)}, pull * Eigen::Vector2d(std::cos(a), std::sin(a)),
+                 b);
     }
     out.pieces.push_back(line);
   }

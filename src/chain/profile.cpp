@@ -29,7 +29,8 @@ void resize(Piece& piece, Eigen::Index count) {
 }
 
 /// Planar line contact: n = n_t t, m = B e_z, p = n_t = n_a − B.
-void sample_planar_line(const bvp::ArcSamples& samples, const RodKind& rod, double a0, double torque, Piece& piece) {
+void sample_planar_line(const bvp::ArcSamples& samples, const RodKind& rod, double a0, double torque,
+                        Piece& piece) {
   const double tension = torque - rod.bending_stiffness;
   for (Eigen::Index k = 0; k < samples.sigma.size(); ++k) {
     const double a = a0 + samples.displacement(0, k);
@@ -69,8 +70,8 @@ void sample_surface(const bvp::ArcSamples& samples, const RodKind& rod, const Ei
 }
 
 /// ∫ p ds by Lobatto quadrature of cos ψ n_θ, and the jump of n₁ taken exactly.
-double surface_force(const Piece& piece, const bvp::ArcSamples& samples, const RodKind& rod, const VectorXd& n,
-                     double length) {
+double surface_force(const Piece& piece, const bvp::ArcSamples& samples, const RodKind& rod,
+                     const VectorXd& n, double length) {
   const Eigen::Index last = piece.s.size() - 1;
   const Vector3d at_start = outward(piece.angle(0)), at_end = outward(piece.angle(last));
   double sum = at_start.dot(piece.n.col(0)) - at_end.dot(piece.n.col(last));
@@ -82,8 +83,7 @@ double surface_force(const Piece& piece, const bvp::ArcSamples& samples, const R
       double psi = 0.0;
       for (int i = 0; i <= table.stages; ++i) psi += table.value(g, i) * samples.q(0, first + i);
       const double c = std::cos(psi), m3 = samples.momentum(1, first);
-      sum += h * table.weight(g) * c *
-             (n(0) - m3 * std::sin(psi) - rod.bending_stiffness * c * c * c);
+      sum += h * table.weight(g) * c * (n(0) - m3 * std::sin(psi) - rod.bending_stiffness * c * c * c);
     }
   }
   return sum;
@@ -126,7 +126,8 @@ void unroll(VectorXd& angle, double before) {
 /// Makes angles and headings continuous along the chain. The place of a line contact is unrolled already; there the
 /// heading is the place, to less than half a turn.
 void unroll(std::vector<Piece>& pieces) {
-  double heading = pieces.front().stretch == Stretch::line ? pieces.front().angle(0) : pieces.front().heading(0);
+  double heading =
+      pieces.front().stretch == Stretch::line ? pieces.front().angle(0) : pieces.front().heading(0);
   for (Piece& piece : pieces) {
     unroll(piece.heading, heading);
     heading = piece.heading(piece.heading.size() - 1);
@@ -166,7 +167,8 @@ Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod
     } else {
       Vector3d n = Vector3d::Zero(), start = Vector3d::Zero();
       n.head(placed.n.size()) = placed.n;
-      const bool from_left = chain.joint(i).kind() != JointKind::end && chain.joint(i).kind() != JointKind::infinity;
+      const bool from_left =
+          chain.joint(i).kind() != JointKind::end && chain.joint(i).kind() != JointKind::infinity;
       if (from_left || rod.strut) {
         start.head(placed.left.x.size()) = placed.left.x;
       } else {  // a left tail hangs on the joint at its end
@@ -238,7 +240,9 @@ Profile::At Profile::at(double s) const {
   const double length = nodes(piece.stride) - nodes(0);
   const double x = std::clamp((s - nodes(0)) / length, 0.0, 1.0);
   const VectorXd phi = bvp::lagrange_basis((nodes.array() - nodes(0)) / length, x);
-  const auto mix = [&](const auto& columns) { return (columns.middleCols(first, piece.stride + 1) * phi).eval(); };
+  const auto mix = [&](const auto& columns) {
+    return (columns.middleCols(first, piece.stride + 1) * phi).eval();
+  };
   At at;
   at.q = mix(piece.q).normalized();
   at.r = mix(piece.r);

@@ -50,7 +50,7 @@ Chain::SecondVariation Chain::second_variation(const VectorXd& x, const Loads& l
     const Local l = local(purpose, numbering, x, loads, i);
     const Sparse map = scatter(l.columns, l, numbering.size, i);
     out.matrix += Sparse(map.transpose() * sparse_hessian(purpose, placed, i) * map);
-    out.metric += Sparse(map.transpose() * links_[i].arc->metric(placed.point()).asDiagonal() * map);
+    out.metric += material_metric(numbering, placed, map, i);
   }
   std::vector<Triplet> entries;
   for (Eigen::Index i = 0; i < dense.rows(); ++i)
@@ -61,6 +61,33 @@ Chain::SecondVariation Chain::second_variation(const VectorXd& x, const Loads& l
   out.matrix += joints;
   out.matrix = Sparse(0.5 * (out.matrix + Sparse(out.matrix.transpose())));
   return out;
+}
+
+/// ∫ |δq at fixed material point|² ds. Where a touch moves along the rod by δs, the arc's samples move with it, and the
+/// variation of the material there is δq − q' δs; a mere shift of the touch then has no weight, as it has no shape.
+Sparse Chain::material_metric(const Numbering& numbering, const Placed& placed, const Sparse& map,
+                              int link) const {
+  const Arc& arc = *links_[link].arc;
+  const VectorXd mass = arc.metric(placed.point());
+  Sparse material = map;
+  const Eigen::Index left = numbering.arclength[link], right = numbering.arclength[link + 1];
+  const bvp::ArcSamples samples = left >= 0 || right >= 0 ? arc.sample(placed.point()) : bvp::ArcSamples{};
+  if (samples.slope.size() > 0) {
+    const int d = arc.tangent(), interior = arc.interior_tangent();
+    std::vector<Triplet> shift;
+    for (Eigen::Index k = 0; k < samples.sigma.size(); ++k) {
+      const bool first = k == 0, last = k + 1 == samples.sigma.size();
+      const Eigen::Index row = first ? interior : last ? interior + d : (k - 1) * d;
+      for (int i = 0; i < d; ++i) {
+        if (left >= 0) shift.emplace_back(row + i, left, -(1.0 - samples.sigma(k)) * samples.slope(i, k));
+        if (right >= 0) shift.emplace_back(row + i, right, -samples.sigma(k) * samples.slope(i, k));
+      }
+    }
+    Sparse moved(map.rows(), map.cols());
+    moved.setFromTriplets(shift.begin(), shift.end());
+    material += moved;
+  }
+  return Sparse(material.transpose() * mass.asDiagonal() * material);
 }
 
 VectorXd Chain::as_increment(const VectorXd& variation, Parity parity) const {

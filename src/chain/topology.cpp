@@ -81,7 +81,8 @@ std::unique_ptr<Arc> make_arc(const RodKind& rod, Stretch stretch, const ArcMesh
     return std::make_unique<rod::TailArc>(rod.spatial ? 3 : 2, rod.bending_stiffness, rightward);
   if (!rod.spatial)
     return bvp::make_collocation_arc(rod::PlanarDensity{rod.bending_stiffness}, mesh.nodes, mesh.stages);
-  return bvp::make_collocation_arc(rod::KirchhoffDensity{rod.stiffness, rod.natural}, mesh.nodes, mesh.stages);
+  return bvp::make_collocation_arc(rod::KirchhoffDensity{rod.stiffness, rod.natural}, mesh.nodes,
+                                   mesh.stages);
 }
 
 }  // namespace
@@ -93,9 +94,7 @@ std::vector<Stretch> stretches(const Topology& t) {
   return all;
 }
 
-bool Topology::contact() const {
-  return mid_touch || right.size() > 1 || left.size() > 1;
-}
+bool Topology::contact() const { return mid_touch || right.size() > 1 || left.size() > 1; }
 
 std::string Topology::text() const {
   const std::vector<Stretch>& other = half ? right : left;
@@ -104,9 +103,11 @@ std::string Topology::text() const {
     for (std::size_t k = 0; k < side.size(); ++k) {
       const std::size_t i = outward ? k : side.size() - 1 - k;
       if (outward && i == 0 && !mid_touch) continue;  // the first stretch spans both halves
-      if (outward && i > 0 && side[i] != Stretch::line && side[i - 1] != Stretch::line) words.push_back("touch");
+      if (outward && i > 0 && side[i] != Stretch::line && side[i - 1] != Stretch::line)
+        words.push_back("touch");
       words.push_back(word(side[i]));
-      if (!outward && i > 0 && side[i] != Stretch::line && side[i - 1] != Stretch::line) words.push_back("touch");
+      if (!outward && i > 0 && side[i] != Stretch::line && side[i - 1] != Stretch::line)
+        words.push_back("touch");
     }
   };
   add(other, false);
@@ -117,7 +118,8 @@ std::string Topology::text() const {
   return text;
 }
 
-std::unique_ptr<Chain> build_chain(const RodKind& rod, const Topology& t, const std::vector<ArcMesh>& meshes) {
+std::unique_ptr<Chain> build_chain(const RodKind& rod, const Topology& t,
+                                   const std::vector<ArcMesh>& meshes) {
   if (rod.strut && !rod.spatial) throw std::invalid_argument("struts are computed with the Kirchhoff rod");
   const std::vector<Stretch> all = stretches(t);
   const double end = rod.infinite ? std::numeric_limits<double>::infinity() : 1.0;

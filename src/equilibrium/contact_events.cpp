@@ -119,7 +119,9 @@ void split(Strip& strip, int i, double s, Stretch left, Stretch right) {
 }
 
 /// Free arcs left and right of what was lost become one: a tail if either is.
-Stretch joined(Stretch a, Stretch b) { return a == Stretch::tail || b == Stretch::tail ? Stretch::tail : Stretch::gap; }
+Stretch joined(Stretch a, Stretch b) {
+  return a == Stretch::tail || b == Stretch::tail ? Stretch::tail : Stretch::gap;
+}
 
 std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& strip, const Piece& line) {
   std::vector<Successor> out;
@@ -145,7 +147,8 @@ std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& st
       out.push_back(successor_of(detached));
     }
   }
-  for (const double size : {0.5, 0.3, 0.8}) {  // an opening grows like the square root: not small a little beyond
+  for (const double size :
+       {0.5, 0.3, 0.8}) {  // an opening grows like the square root: not small a little beyond
     const double part = size / length;
     if (part > 0.9) continue;
     Strip inner = strip;
@@ -222,7 +225,8 @@ std::vector<Successor> after_force(const ContactEvent& event, Strip strip) {
   return {successor_of(strip)};
 }
 
-std::vector<Successor> after_curvature(const ContactEvent& event, const Strip& strip, const Profile& profile) {
+std::vector<Successor> after_curvature(const ContactEvent& event, const Strip& strip,
+                                       const Profile& profile) {
   std::vector<Successor> out;
   const int j = event.place;
   // A neighbouring gap that lies on the cylinder all along closes as a whole.
@@ -258,7 +262,8 @@ std::vector<Successor> after_graze(const ContactEvent& event, Strip strip) {
   }
   const Stretch kind = strip.kinds[i];
   const bool left_tail = !strip.half && i == 0, right_tail = kind == Stretch::tail && !left_tail;
-  split(strip, i, event.s, left_tail ? Stretch::tail : Stretch::gap, right_tail ? Stretch::tail : Stretch::gap);
+  split(strip, i, event.s, left_tail ? Stretch::tail : Stretch::gap,
+        right_tail ? Stretch::tail : Stretch::gap);
   return {successor_of(strip)};
 }
 
@@ -273,10 +278,14 @@ std::vector<Successor> successors(const ContactEvent& event, const Profile& prof
       if (std::abs(s[event.place + 1] - s[event.place]) < 1e-4) return after_length(event, strip);
       return after_pressure(event, strip, profile.pieces[event.place]);
     }
-    case Kind::length: return after_length(event, strip);
-    case Kind::force: return after_force(event, strip);
-    case Kind::curvature: return after_curvature(event, strip, profile);
-    case Kind::graze: return after_graze(event, strip);
+    case Kind::length:
+      return after_length(event, strip);
+    case Kind::force:
+      return after_force(event, strip);
+    case Kind::curvature:
+      return after_curvature(event, strip, profile);
+    case Kind::graze:
+      return after_graze(event, strip);
   }
   return {};
 }

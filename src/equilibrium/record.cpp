@@ -52,7 +52,8 @@ ArcRecord mirrored(const ArcRecord& arc, double sign) {
     const Eigen::Index i = count - 1 - k;
     out.s(k) = -arc.s(i);
     out.r.col(k) = turn.cwiseProduct(arc.r.col(i));
-    out.q.col(k) = sign * rod::product(Vector4d(0, 0, 1, 0), rod::product(arc.q.col(i), Vector4d(0, 1, 0, 0)));
+    out.q.col(k) =
+        sign * rod::product(Vector4d(0, 0, 1, 0), rod::product(arc.q.col(i), Vector4d(0, 1, 0, 0)));
     out.n.col(k) = -turn.cwiseProduct(arc.n.col(i));
     out.m.col(k) = -turn.cwiseProduct(arc.m.col(i));
     out.p(k) = arc.p(i);
@@ -170,12 +171,14 @@ void measure_invariants(Solution& out, const chain::RodKind& kind) {
     for (Eigen::Index k = 0; k < arc.s.size(); ++k) {
       const Eigen::Matrix3d d = rod::directors(arc.q.col(k));
       const Vector3d m = d.transpose() * arc.m.col(k);
-      const double h = 0.5 * m.dot(m.cwiseQuotient(kind.stiffness)) + m.dot(kind.natural) + arc.n.col(k).dot(d.col(2));
+      const double h =
+          0.5 * m.dot(m.cwiseQuotient(kind.stiffness)) + m.dot(kind.natural) + arc.n.col(k).dot(d.col(2));
       const double torque = (arc.m.col(k) + arc.r.col(k).cross(arc.n.col(k)))(2);
       if (first) h0 = h, torque0 = torque, first = false;
       out.invariants.hamiltonian_drift = std::max(out.invariants.hamiltonian_drift, std::abs(h - h0));
       if (!kind.strut)
-        out.invariants.axial_torque_drift = std::max(out.invariants.axial_torque_drift, std::abs(torque - torque0));
+        out.invariants.axial_torque_drift =
+            std::max(out.invariants.axial_torque_drift, std::abs(torque - torque0));
     }
     // Contact pressure carried by a line: the change of its internal force.
     if (arc.kind == ArcKind::line) balance += arc.n.col(arc.n.cols() - 1) - arc.n.col(0);
@@ -237,11 +240,13 @@ Restart restart_of(const RodProblem& problem, const Vector& x) {
   chain["mid_touch"] = problem.topology().mid_touch;
   chain["right"] = words(problem.topology().right);
   chain["left"] = words(problem.topology().left);
-  for (const auto& mesh : problem.meshes()) chain["meshes"].push_back({{"nodes", mesh.nodes}, {"stages", mesh.stages}});
+  for (const auto& mesh : problem.meshes())
+    chain["meshes"].push_back({{"nodes", mesh.nodes}, {"stages", mesh.stages}});
   return {chain.dump(), x};
 }
 
-std::shared_ptr<RodProblem> reopen(const scene::Scene& scene, const Restart& restart, std::vector<std::string> keys) {
+std::shared_ptr<RodProblem> reopen(const scene::Scene& scene, const Restart& restart,
+                                   std::vector<std::string> keys) {
   try {
     const nlohmann::json chain = nlohmann::json::parse(restart.chain);
     Topology topology;
@@ -252,8 +257,10 @@ std::shared_ptr<RodProblem> reopen(const scene::Scene& scene, const Restart& res
     std::vector<chain::ArcMesh> meshes;
     for (const auto& mesh : chain.at("meshes"))
       meshes.push_back({mesh.at("nodes").get<std::vector<double>>(), mesh.at("stages").get<int>()});
-    auto problem = std::make_shared<RodProblem>(scene, chain.at("spatial").get<bool>(), topology, meshes, std::move(keys));
-    if (problem->chain().ambient_size() != restart.state.size()) throw std::runtime_error("its state has another size");
+    auto problem = std::make_shared<RodProblem>(scene, chain.at("spatial").get<bool>(), topology, meshes,
+                                                std::move(keys));
+    if (problem->chain().ambient_size() != restart.state.size())
+      throw std::runtime_error("its state has another size");
     return problem;
   } catch (const std::exception& error) {
     throw std::runtime_error(std::string("the stored point cannot be restarted: ") + error.what());

@@ -13,7 +13,7 @@ namespace {
 using contact::Loads;
 
 /// Parameters that change loads only; all others rebuild the arcs.
-double Loads::* field_of(const std::string& key) {
+double Loads::*field_of(const std::string& key) {
   if (key == "load.tension") return &Loads::tension;
   if (key == "load.angle") return &Loads::angle;
   if (key == "load.thrust") return &Loads::thrust;
@@ -56,9 +56,12 @@ chain::RodKind rod_of(const scene::Scene& scene, bool spatial) {
   return rod;
 }
 
-RodProblem::RodProblem(scene::Scene scene, bool spatial, Topology topology, std::vector<chain::ArcMesh> meshes,
-                       std::vector<std::string> keys)
-    : scene_(std::move(scene)), spatial_(spatial), topology_(std::move(topology)), meshes_(std::move(meshes)),
+RodProblem::RodProblem(scene::Scene scene, bool spatial, Topology topology,
+                       std::vector<chain::ArcMesh> meshes, std::vector<std::string> keys)
+    : scene_(std::move(scene)),
+      spatial_(spatial),
+      topology_(std::move(topology)),
+      meshes_(std::move(meshes)),
       keys_(std::move(keys)) {
   for (const std::string& key : keys_) fields_.push_back(field_of(key));
   rebuild();
@@ -182,7 +185,8 @@ int RodProblem::polish(Vector& x, const Vector& p, int most) {
 }
 
 double RodProblem::target(const chain::Chain& chain, const Vector& x, const Loads& at) const {
-  if (!rod_.strut) return chain::total_contact_force(chain::profile(chain, topology_, rod_, x, at), topology_);
+  if (!rod_.strut)
+    return chain::total_contact_force(chain::profile(chain, topology_, rod_, x, at), topology_);
   return -chain.force(x, at, chain.link_count() - 1)(0);
 }
 
@@ -218,7 +222,8 @@ std::vector<double> bounded(const std::vector<double>& mesh, double growth) {
   std::vector<double> out{mesh.front()};
   for (std::size_t k = 1; k < mesh.size(); ++k) {
     const double h = mesh[k] - mesh[k - 1];
-    const int parts = h * growth > longest && h * growth < whole ? static_cast<int>(std::ceil(h * growth / longest)) : 1;
+    const int parts =
+        h * growth > longest && h * growth < whole ? static_cast<int>(std::ceil(h * growth / longest)) : 1;
     for (int i = 1; i <= parts; ++i) out.push_back(i == parts ? mesh[k] : mesh[k - 1] + h * i / parts);
   }
   return out;
@@ -323,7 +328,8 @@ Vector RodProblem::fingerprint(const Vector& x, const Vector& p) {
     z_low = std::min(z_low, piece.r.row(2).minCoeff());
     z_high = std::max(z_high, piece.r.row(2).maxCoeff());
     for (Eigen::Index k = 0; k < piece.s.size(); ++k)
-      if (std::abs(piece.s(k)) < nearest) nearest = std::abs(piece.s(k)), tilt = std::abs(piece.inclination(k));
+      if (std::abs(piece.s(k)) < nearest)
+        nearest = std::abs(piece.s(k)), tilt = std::abs(piece.inclination(k));
   }
   Vector print(5);
   print << target(*chain_, x, at), energy, z_high - z_low, tilt, static_cast<double>(shape.contacts.size());

@@ -20,11 +20,13 @@ bool admissible(const std::vector<ContactEvent>& events) {
 std::vector<continuation::EventFunction> RodProblem::events(const Vector& x, const Vector& p) {
   std::vector<continuation::EventFunction> out;
   if (!scene_.has_cylinder) return out;
-  for (const ContactEvent& event : contact_events(profile(x, p), topology_)) out.push_back({event.name(), event.value});
+  for (const ContactEvent& event : contact_events(profile(x, p), topology_))
+    out.push_back({event.name(), event.value});
   return out;
 }
 
-std::optional<continuation::Transition> RodProblem::transition(std::size_t which, const Vector& x, const Vector& p) {
+std::optional<continuation::Transition> RodProblem::transition(std::size_t which, const Vector& x,
+                                                               const Vector& p) {
   const contact::Loads at = loads(p);
   const chain::Profile shape = profile(x, p);
   const ContactEvent event = contact_events(shape, topology_).at(which);

@@ -15,7 +15,8 @@ namespace {
 /// Puts a state through SNES: the polish of the cold start is checked by PETSc's own convergence criteria.
 void confirm(Started& started) {
   NewtonSolver newton;
-  const NewtonResult result = newton.solve(started.problem->chain(), started.x, started.problem->loads(started.p));
+  const NewtonResult result =
+      newton.solve(started.problem->chain(), started.x, started.problem->loads(started.p));
   if (!result.converged) throw NoEquilibrium("SNES did not accept the state: " + result.reason);
   started.newton_iterations += result.iterations;
 }
@@ -49,7 +50,8 @@ Solution solve_automatically(const scene::Scene& scene, const std::vector<std::s
       Solution solution = finish(planar, "");
       solution.model = "closed_form";
       solution.model_reason =
-          "infinite tails and a line contact: the closed form is exact, and the flat state is stable in space";
+          "infinite tails and a line contact: the closed form is exact, and the flat state is stable in "
+          "space";
       return solution;
     }
     return finish(planar, "the flat state is stable against all perturbations of the Kirchhoff rod");
@@ -57,15 +59,17 @@ Solution solve_automatically(const scene::Scene& scene, const std::vector<std::s
   Started rod = lift(*planar.problem, planar.x, planar.p, symmetric(scene));
   if (index == 0) return finish(rod, "the full chain was asked for (model.symmetry = \"none\")");
   const std::string unstable = "the flat state is unstable in space (index " + std::to_string(index) + ")";
-  if (auto helical = stable_neighbour(rod)) return finish(*helical, unstable + "; this is the state it leaves for");
-  return finish(rod, unstable + "; no stable state was found on the arms that leave it, so this is the flat one");
+  if (auto helical = stable_neighbour(rod))
+    return finish(*helical, unstable + "; this is the state it leaves for");
+  return finish(rod,
+                unstable + "; no stable state was found on the arms that leave it, so this is the flat one");
 }
 
 }  // namespace
 
 Solution solve(const scene::Scene& scene) {
   const auto begin = std::chrono::steady_clock::now();
-  const std::vector<std::string> keys = scene.has_cylinder ? std::vector<std::string>{"load.tension"}
+  const std::vector<std::string> keys = scene.has_cylinder      ? std::vector<std::string>{"load.tension"}
                                         : scene.ends.shortening ? std::vector<std::string>{"ends.shortening"}
                                                                 : std::vector<std::string>{"load.thrust"};
   Solution solution;
@@ -74,7 +78,8 @@ Solution solve(const scene::Scene& scene) {
       if (!scene.has_cylinder || !scene.rod.infinite())
         throw NoEquilibrium("model.kind = \"closed_form\" needs a cylinder and rod.length = \"inf\"");
       if (!rod::capstan::line_contact(scene.load.tension, scene.load.angle))
-        throw NoEquilibrium("the closed form has no line contact at this tension; model.kind = \"planar\" goes on");
+        throw NoEquilibrium(
+            "the closed form has no line contact at this tension; model.kind = \"planar\" goes on");
       Started planar = cold_start(scene, false, true, keys);
       solution = finish(planar, "asked for");
       solution.model = "closed_form";
@@ -90,7 +95,9 @@ Solution solve(const scene::Scene& scene) {
       solution = finish(rod, "asked for");
       break;
     }
-    case ModelKind::automatic: solution = solve_automatically(scene, keys); break;
+    case ModelKind::automatic:
+      solution = solve_automatically(scene, keys);
+      break;
   }
   solution.seconds_solve = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   solution.seconds_total = solution.seconds_solve;

@@ -27,7 +27,8 @@ bool contacts_hold(RodProblem& problem, const Vector& x, const Vector& p) {
 }
 
 ArcMesh mesh_for(Stretch stretch, const Loads& loads, double length) {
-  if (stretch == Stretch::tail) return {chain::tail_mesh(loads.tension, length, 10, start_stages), start_stages};
+  if (stretch == Stretch::tail)
+    return {chain::tail_mesh(loads.tension, length, 10, start_stages), start_stages};
   return {chain::uniform_mesh(std::max(4, static_cast<int>(std::ceil(length)))), start_stages};
 }
 
@@ -38,8 +39,9 @@ struct Draft {
   std::vector<double> s;  ///< from the mid-point, right half
 };
 
-std::optional<Started> attempt(const scene::Scene& scene, bool spatial, bool half, const std::vector<std::string>& keys,
-                               const Draft& draft, const chain::Profile& profile) {
+std::optional<Started> attempt(const scene::Scene& scene, bool spatial, bool half,
+                               const std::vector<std::string>& keys, const Draft& draft,
+                               const chain::Profile& profile) {
   const Loads loads = loads_of(scene);
   Topology topology{draft.right, {}, true, draft.mid_touch};
   std::vector<ArcMesh> meshes;
@@ -120,11 +122,13 @@ Started start_strut(const scene::Scene& scene, bool half, const std::vector<std:
   int iterations = 0;
   const Topology topology{{Stretch::tail}, {}, true, false};
   if (scene.ends.shortening && !(goal > 0.0))
-    throw NoEquilibrium("ends.shortening = 0: a straight inextensible strut carries any thrust up to buckling; give "
-                        "load.thrust, or a shortening above 0");
+    throw NoEquilibrium(
+        "ends.shortening = 0: a straight inextensible strut carries any thrust up to buckling; give "
+        "load.thrust, or a shortening above 0");
   // From a moderate bow up in steps, or down by factors: the amplitude goes like the square root.
   constexpr double first = 0.02;
-  for (double at = scene.ends.shortening ? first : goal;; at = goal > at ? std::min(goal, at + 0.05) : std::max(goal, at / 3.0)) {
+  for (double at = scene.ends.shortening ? first : goal;;
+       at = goal > at ? std::min(goal, at + 0.05) : std::max(goal, at / 3.0)) {
     if (scene.ends.shortening) near.ends.shortening = at;
     const Loads here = loads_of(near);
     const std::vector<ArcMesh> meshes =
@@ -135,10 +139,12 @@ Started start_strut(const scene::Scene& scene, bool half, const std::vector<std:
       const chain::Profile bow = chain::strut_profile(here, 2.0 * std::sqrt(at));
       x = chain::guess_state(next->chain(), topology, next->rod(), bow, {0.0, here.half_length});
       const double critical = 4.0 * M_PI * M_PI / (4.0 * here.half_length * here.half_length);
-      next->chain().force(x, 0)[0] = scene.ends.shortening ? -critical * scene.rod.bending_stiffness : -here.thrust;
+      next->chain().force(x, 0)[0] =
+          scene.ends.shortening ? -critical * scene.rod.bending_stiffness : -here.thrust;
     }
     const int used = next->polish(x, p);
-    if (used < 0) throw NoEquilibrium("Newton did not converge for the strut at shortening " + std::to_string(at));
+    if (used < 0)
+      throw NoEquilibrium("Newton did not converge for the strut at shortening " + std::to_string(at));
     iterations += used;
     problem = next;
     if (at == goal) break;
@@ -165,10 +171,12 @@ Started unfold(RodProblem& halved, const Vector& x, const Vector& p, int iterati
   }
   std::reverse(meshes.begin(), meshes.end());
   meshes.insert(meshes.end(), halved.meshes().begin(), halved.meshes().end());
-  auto problem = std::make_shared<RodProblem>(halved.scene_at(p), halved.spatial(), topology, meshes, halved.keys());
+  auto problem =
+      std::make_shared<RodProblem>(halved.scene_at(p), halved.spatial(), topology, meshes, halved.keys());
   std::vector<double> s;
   const Loads loads = halved.loads(p);
-  for (int j = halved.chain().joint_count() - 1; j > 0; --j) s.push_back(-halved.chain().arclength(x, loads, j));
+  for (int j = halved.chain().joint_count() - 1; j > 0; --j)
+    s.push_back(-halved.chain().arclength(x, loads, j));
   for (int j = 0; j < halved.chain().joint_count(); ++j) s.push_back(halved.chain().arclength(x, loads, j));
   for (double& at : s)
     if (std::isinf(at)) at = at > 0.0 ? whole.end() : whole.begin();
@@ -191,7 +199,8 @@ Started lift(RodProblem& planar, const Vector& x, const Vector& p, bool half) {
   }
   for (std::size_t i = 0; i < kinds.size(); ++i)
     if (kinds[i] == Stretch::line) meshes[i] = mesh_for(Stretch::line, loads, s[i + 1] - s[i]);
-  auto problem = std::make_shared<RodProblem>(planar.scene_at(p), true, planar.topology(), meshes, planar.keys());
+  auto problem =
+      std::make_shared<RodProblem>(planar.scene_at(p), true, planar.topology(), meshes, planar.keys());
   Vector y = chain::guess_state(problem->chain(), planar.topology(), problem->rod(), shape, s);
   const int used = problem->polish(y, p);
   if (used < 0) throw NoEquilibrium("Newton did not converge on the Kirchhoff rod from the planar state");

@@ -21,8 +21,8 @@ using Eigen::VectorXd;
 /// One arc of a chain with the data that make it part of it.
 struct Link {
   std::unique_ptr<Arc> arc;
-  std::string role;                  ///< "line", "gap" or "tail"
-  int pull = 0;                      ///< 0: n unknown; ±1: n is the dead pull of the right end / minus the left one's
+  std::string role;  ///< "line", "gap" or "tail"
+  int pull = 0;      ///< 0: n unknown; ±1: n is the dead pull of the right end / minus the left one's
 };
 
 /// Layout of a chain's unknowns.
@@ -85,9 +85,10 @@ class Chain {
 
   /// The second variation as a sparse symmetric matrix with its metric, for the spectrum. Size: see `constraints`.
   struct SecondVariation {
-    Eigen::SparseMatrix<double> matrix;   ///< symmetric, indefinite (multipliers)
-    Eigen::SparseMatrix<double> metric;   ///< ∫ |δ(rotation)|² ds; zero for multipliers and contact locations
-    int constraints = 0;                  ///< negative directions owed to multipliers and to touch locations
+    Eigen::SparseMatrix<double> matrix;  ///< symmetric, indefinite (multipliers)
+    Eigen::SparseMatrix<double>
+        metric;           ///< ∫ |δ(rotation)|² ds; zero for multipliers and mere shifts of a touch
+    int constraints = 0;  ///< negative directions owed to multipliers and to touch locations
   };
   SecondVariation second_variation(const VectorXd& x, const Loads& loads, contact::Parity parity) const;
 
@@ -115,23 +116,27 @@ class Chain {
   struct Numbering {
     std::vector<Eigen::Index> coordinate, arclength, force;  ///< arclength, force: −1 where absent
     Eigen::Index size = 0, geometric = 0;
-    int constraints = 0;             ///< multipliers and touch locations: one negative direction each
+    int constraints = 0;  ///< multipliers and touch locations: one negative direction each
   };
 
   Numbering number(Purpose purpose) const;
   contact::Attachment attachment(Purpose purpose, const VectorXd& x, const Loads& loads, int joint,
                                  contact::Side side) const;
-  Local local(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads, int link) const;
+  Local local(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads,
+              int link) const;
   /// Dense terms that do not come from an arc's condensed Hessian: curvature of attachments, closure, location.
-  void add_joint_terms(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads, int link,
-                       const bvp::EndsVector& gradient, MatrixXd& dense) const;
+  void add_joint_terms(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads,
+                       int link, const bvp::EndsVector& gradient, MatrixXd& dense) const;
   void add_locations(const VectorXd& x, MatrixXd& dense) const;
   contact::Joint::Location location(const VectorXd& x, int joint) const;
   /// Condensed Hessian plus the part that is antisymmetric because frames do not commute.
   static bvp::EndsMatrix with_commutator(const Arc& arc, const bvp::EndsMatrix& symmetric,
                                          const bvp::EndsVector& gradient);
   /// Map from a dense block and the interiors to one arc's list (interior, ends).
-  Eigen::SparseMatrix<double> scatter(const MatrixXd& ends, const Local& local, Eigen::Index dense, int link) const;
+  Eigen::SparseMatrix<double> scatter(const MatrixXd& ends, const Local& local, Eigen::Index dense,
+                                      int link) const;
+  Eigen::SparseMatrix<double> material_metric(const Numbering& numbering, const Placed& placed,
+                                              const Eigen::SparseMatrix<double>& map, int link) const;
   Eigen::SparseMatrix<double> sparse_hessian(Purpose purpose, const Placed& placed, int link) const;
   MatrixXd variation_matrix(Purpose purpose, const Numbering& numbering, const VectorXd& x,
                             const Loads& loads) const;
@@ -153,9 +158,9 @@ class Chain {
   // Last factorisation.
   std::vector<Local> locals_;
   std::vector<bvp::EndsMatrix> condensed_;
-  mutable std::vector<bvp::EndsVector> gradients_;   ///< at the last residual or factorisation
-  MatrixXd border_b_, border_c_;                     ///< reduced borders
-  MatrixXd interior_b_, interior_c_;                 ///< K⁻¹ b, K⁻¹ c on the interiors
+  mutable std::vector<bvp::EndsVector> gradients_;  ///< at the last residual or factorisation
+  MatrixXd border_b_, border_c_;                    ///< reduced borders
+  MatrixXd interior_b_, interior_c_;                ///< K⁻¹ b, K⁻¹ c on the interiors
   Eigen::PartialPivLU<MatrixXd> dense_;
   Eigen::Index borders_ = 0;
   int determinant_sign_ = 0;

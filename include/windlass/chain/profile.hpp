@@ -11,15 +11,15 @@ namespace windlass::chain {
 /// One arc sampled at its Lagrange points. World frame, dimensionless; shapes as in equilibrium::ArcRecord.
 struct Piece {
   Stretch stretch = Stretch::tail;
-  int stride = 1;                 ///< samples an element: polynomials of this degree run through stride + 1 samples
+  int stride = 1;  ///< samples an element: polynomials of this degree run through stride + 1 samples
   VectorXd s;
   Eigen::Matrix3Xd r, n, m;
   Eigen::Matrix4Xd q;
-  VectorXd angle;                 ///< unrolled place round the axis, 0 at the south pole [rad]
-  VectorXd heading;               ///< unrolled angle of the tangent's projection to e_x [rad]
-  VectorXd p;                     ///< contact force per length
-  VectorXd inclination;           ///< of the tangent to the plane of the cylinder's section [rad]
-  double force = 0.0;             ///< ∫ p ds
+  VectorXd angle;        ///< unrolled place round the axis, 0 at the south pole [rad]
+  VectorXd heading;      ///< unrolled angle of the tangent's projection to e_x [rad]
+  VectorXd p;            ///< contact force per length
+  VectorXd inclination;  ///< of the tangent to the plane of the cylinder's section [rad]
+  double force = 0.0;    ///< ∫ p ds
 };
 
 /// A contact joint as seen from outside.
@@ -27,8 +27,8 @@ struct Contact {
   int joint = 0;
   bool edge = false;
   double s = 0.0, angle = 0.0, z = 0.0;
-  double force = 0.0;             ///< outward on the rod; >= 0 where the contact holds
-  double gap_curvature = 0.0;     ///< g'' at a touch, >= 0
+  double force = 0.0;          ///< outward on the rod; >= 0 where the contact holds
+  double gap_curvature = 0.0;  ///< g'' at a touch, >= 0
 };
 
 struct Profile {

@@ -46,7 +46,8 @@ struct ArcMesh {
 
 /// @param meshes  one an arc, in the order of the chain (full chain: from s = −L/2); ignored for closed-form arcs
 /// @throws std::invalid_argument for a topology the kind of rod cannot have
-std::unique_ptr<Chain> build_chain(const RodKind& rod, const Topology& topology, const std::vector<ArcMesh>& meshes);
+std::unique_ptr<Chain> build_chain(const RodKind& rod, const Topology& topology,
+                                   const std::vector<ArcMesh>& meshes);
 
 /// Stretches in the order of the chain's links.
 std::vector<Stretch> stretches(const Topology& topology);

@@ -21,9 +21,9 @@ namespace windlass::equilibrium {
 struct ContactEvent {
   enum class Kind { pressure, length, force, curvature, graze };
   Kind kind = Kind::force;
-  int place = 0;       ///< link (pressure, length, graze) or joint (force, curvature)
+  int place = 0;  ///< link (pressure, length, graze) or joint (force, curvature)
   double value = 0.0;
-  double s = 0.0;      ///< where along the rod
+  double s = 0.0;  ///< where along the rod
   std::string name() const;
 };
 
@@ -33,9 +33,9 @@ std::vector<ContactEvent> contact_events(const chain::Profile& profile, const ch
 /// A topology with the arclengths of its joints, to be filled from the old profile.
 struct Successor {
   chain::Topology topology;
-  std::vector<double> s;                 ///< one a joint of the new chain
-  std::vector<int> source;               ///< link of the old chain whose mesh each new arc inherits
-  bool nothing_left = false;             ///< no contact remains: the branch ends
+  std::vector<double> s;      ///< one a joint of the new chain
+  std::vector<int> source;    ///< link of the old chain whose mesh each new arc inherits
+  bool nothing_left = false;  ///< no contact remains: the branch ends
 };
 
 /// Candidates for what follows the event, most likely first.

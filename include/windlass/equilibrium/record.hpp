@@ -13,7 +13,8 @@ Solution record(RodProblem& problem, const Vector& x, const Vector& p);
 Restart restart_of(const RodProblem& problem, const Vector& x);
 
 /// The problem and state a stored solution came from. @throws std::runtime_error for damaged restart data
-std::shared_ptr<RodProblem> reopen(const scene::Scene& scene, const Restart& restart, std::vector<std::string> keys);
+std::shared_ptr<RodProblem> reopen(const scene::Scene& scene, const Restart& restart,
+                                   std::vector<std::string> keys);
 
 /// Largest drift of the invariants along the rod and the residual of the force balance; fills solution.invariants.
 void measure_invariants(Solution& solution, const chain::RodKind& kind);

@@ -44,7 +44,8 @@ class RodProblem final : public continuation::Problem {
   double inner(const Vector& a, const Vector& b) const override;
   Vector dual(const Vector& a) const override;
   std::vector<continuation::EventFunction> events(const Vector& x, const Vector& p) override;
-  std::optional<continuation::Transition> transition(std::size_t which, const Vector& x, const Vector& p) override;
+  std::optional<continuation::Transition> transition(std::size_t which, const Vector& x,
+                                                     const Vector& p) override;
   std::optional<Vector> adapt(const Vector& x, const Vector& p) override;
   Vector fingerprint(const Vector& x, const Vector& p) override;
   std::shared_ptr<continuation::Problem> clone() const override;
@@ -90,9 +91,9 @@ class RodProblem final : public continuation::Problem {
   contact::Loads base_;
   std::vector<double contact::Loads::*> fields_;  ///< where each parameter lives; null: rebuilds the rod
   std::unique_ptr<chain::Chain> chain_, finer_;   ///< finer_: one more stage, for the error estimate
-  int index_ = -1;             ///< last count at a sound point
-  double last_error_ = 0.0;    ///< relative, of the target
-  double nodal_error_ = 0.0;   ///< of frames and places at element ends
+  int index_ = -1;                                ///< last count at a sound point
+  double last_error_ = 0.0;                       ///< relative, of the target
+  double nodal_error_ = 0.0;                      ///< of frames and places at element ends
 };
 
 }  // namespace windlass::equilibrium

@@ -11,8 +11,13 @@
 /// The whole rod is described, both halves, also when only half of it was solved. A planar rod lies in z = 0.
 namespace windlass::equilibrium {
 
-enum class ArcKind { free, line };                      ///< printed as "gap"/"tail" (free) or "line"
-enum class JointKind { end, touch, edge, infinity };    ///< infinity: start of a closed-form infinite tail's far end
+enum class ArcKind { free, line };  ///< printed as "gap"/"tail" (free) or "line"
+enum class JointKind {
+  end,
+  touch,
+  edge,
+  infinity
+};  ///< infinity: start of a closed-form infinite tail's far end
 
 /// One stretch of rod in one contact state, sampled at its mesh nodes.
 ///
@@ -20,30 +25,30 @@ enum class JointKind { end, touch, edge, infinity };    ///< infinity: start of 
 /// n on a line arc is the internal force, which varies along it; on a free arc all columns are equal.
 struct ArcRecord {
   ArcKind kind = ArcKind::free;
-  std::string role;                                     ///< "tail", "gap" or "line"
-  double s_begin = 0.0, s_end = 0.0;                    ///< material arclength, s = 0 at the mid-point [ρ]
-  double force = 0.0;                                   ///< line: ∫ p ds [EI/ρ²]; free: 0
+  std::string role;                   ///< "tail", "gap" or "line"
+  double s_begin = 0.0, s_end = 0.0;  ///< material arclength, s = 0 at the mid-point [ρ]
+  double force = 0.0;                 ///< line: ∫ p ds [EI/ρ²]; free: 0
   Eigen::VectorXd s;
   Eigen::Matrix3Xd r;
   Eigen::Matrix4Xd q;
   Eigen::Matrix3Xd n;
   Eigen::Matrix3Xd m;
-  Eigen::VectorXd p;                                    ///< contact force per length, 0 on free arcs [EI/ρ³]
+  Eigen::VectorXd p;  ///< contact force per length, 0 on free arcs [EI/ρ³]
 };
 
 struct JointRecord {
   JointKind kind = JointKind::end;
-  double s = 0.0;                                       ///< [ρ]
-  double angle = 0.0;                                   ///< place round the axis, unrolled, 0 at the south pole [rad]
-  double z = 0.0;                                       ///< [ρ]
-  double force = 0.0;                                   ///< size of the contact point force, >= 0 [EI/ρ²]
-  Eigen::Vector3d r = Eigen::Vector3d::Zero();          ///< position [ρ]
+  double s = 0.0;                               ///< [ρ]
+  double angle = 0.0;                           ///< place round the axis, unrolled, 0 at the south pole [rad]
+  double z = 0.0;                               ///< [ρ]
+  double force = 0.0;                           ///< size of the contact point force, >= 0 [EI/ρ²]
+  Eigen::Vector3d r = Eigen::Vector3d::Zero();  ///< position [ρ]
 };
 
 struct Invariants {
-  double hamiltonian_drift = 0.0;      ///< max |H - H(first sample)| along the rod
-  double axial_torque_drift = 0.0;     ///< max drift of (m + r×n)·e_z
-  double force_residual = 0.0;         ///< |sum of end pulls and contact forces|
+  double hamiltonian_drift = 0.0;   ///< max |H - H(first sample)| along the rod
+  double axial_torque_drift = 0.0;  ///< max drift of (m + r×n)·e_z
+  double force_residual = 0.0;      ///< |sum of end pulls and contact forces|
 };
 
 struct Mesh {
@@ -54,51 +59,51 @@ struct Mesh {
 
 struct Mode {
   double eigenvalue = 0.0;
-  std::string plane;                   ///< "in" or "out"
-  std::string parity;                  ///< "even" or "odd" under the half-turn
-  Eigen::VectorXd s;                   ///< N
-  Eigen::Matrix3Xd displacement;       ///< 3×N, largest entry 1
+  std::string plane;              ///< "in" or "out"
+  std::string parity;             ///< "even" or "odd" under the half-turn
+  Eigen::VectorXd s;              ///< N
+  Eigen::Matrix3Xd displacement;  ///< 3×N, largest entry 1
 };
 
 struct Stability {
-  int index = 0;                       ///< number of negative eigenvalues (SLEPc and inertia agree)
-  int inertia_index = 0;               ///< the second opinion, from the factorisation
-  std::vector<double> eigenvalues;     ///< lowest first
-  bool degenerate = false;             ///< a contact carries zero force to within tolerance
+  int index = 0;                    ///< number of negative eigenvalues (SLEPc and inertia agree)
+  int inertia_index = 0;            ///< the second opinion, from the factorisation
+  std::vector<double> eigenvalues;  ///< lowest first
+  bool degenerate = false;          ///< a contact carries zero force to within tolerance
   std::vector<Mode> modes;
 };
 
 /// Opaque restart data: enough to rebuild the discrete problem and its unknowns exactly.
 struct Restart {
-  std::string chain;                   ///< serialised chain description (topology, meshes), JSON text
-  Eigen::VectorXd state;               ///< the discrete unknowns
+  std::string chain;      ///< serialised chain description (topology, meshes), JSON text
+  Eigen::VectorXd state;  ///< the discrete unknowns
 };
 
 struct Solution {
   double T = 0.0, phi = 0.0;
-  std::string model;                   ///< rung: "closed_form", "planar", "kirchhoff_half", "kirchhoff_full"
+  std::string model;  ///< rung: "closed_form", "planar", "kirchhoff_half", "kirchhoff_full"
   std::string model_reason;
   bool converged = false;
   int newton_iterations = 0;
 
   bool has_cylinder = true;
-  double R_tot = 0.0;                  ///< sum of sizes of all contact forces, pressure integrated
-  std::optional<double> F0;            ///< mu R_tot, where the scene has mu
-  double phi_star = 0.0;               ///< half the angle between the outermost contacts [rad]
-  double tilt = 0.0;                   ///< inclination of the mid-point tangent to the plane z = 0 [rad]
-  double z_span = 0.0;                 ///< max z - min z over the rod [ρ]
-  double energy = 0.0;                 ///< bending and twisting energy [EI/ρ]
+  double R_tot = 0.0;        ///< sum of sizes of all contact forces, pressure integrated
+  std::optional<double> F0;  ///< mu R_tot, where the scene has mu
+  double phi_star = 0.0;     ///< half the angle between the outermost contacts [rad]
+  double tilt = 0.0;         ///< inclination of the mid-point tangent to the plane z = 0 [rad]
+  double z_span = 0.0;       ///< max z - min z over the rod [ρ]
+  double energy = 0.0;       ///< bending and twisting energy [EI/ρ]
   // struts (no cylinder)
-  double end_force = 0.0;              ///< thrust positive
-  double end_moment = 0.0;             ///< axial end moment
-  double shortening = 0.0;             ///< end shortening / length
+  double end_force = 0.0;   ///< thrust positive
+  double end_moment = 0.0;  ///< axial end moment
+  double shortening = 0.0;  ///< end shortening / length
 
-  std::string topology;                ///< e.g. "tail edge line edge tail"
-  std::vector<ArcRecord> arcs;         ///< from s = -L/2 to L/2
-  std::vector<JointRecord> joints;     ///< in the same order; joints.size() == arcs.size() + 1
+  std::string topology;             ///< e.g. "tail edge line edge tail"
+  std::vector<ArcRecord> arcs;      ///< from s = -L/2 to L/2
+  std::vector<JointRecord> joints;  ///< in the same order; joints.size() == arcs.size() + 1
   std::optional<Stability> stability;
   Invariants invariants;
-  double error_estimate = 0.0;         ///< relative, of R_tot (strut: of end_force)
+  double error_estimate = 0.0;  ///< relative, of R_tot (strut: of end_force)
   Mesh mesh;
   double seconds_solve = 0.0, seconds_stability = 0.0, seconds_total = 0.0;
   Restart restart;
