@@ -39,7 +39,7 @@ struct ArcSamples {
   Eigen::MatrixXd momentum;  ///< ∂L/∂q' in the tangent basis; tangent × N (superconvergent at element ends)
   Eigen::MatrixXd displacement;  ///< ∫₀ d ds; forces × N
   Eigen::MatrixXd slope;         ///< dq/ds in the tangent basis; tangent × N (empty: closed-form arcs)
-  std::vector<int> nodes;        ///< indices of the element ends among the N samples
+  std::vector<int> nodes = {};   ///< indices of the element ends among the N samples
 };
 
 class Arc {
