@@ -47,7 +47,7 @@ int run_stability(const RunRequest& request) {
       std::printf("%-8s index %d (inertia %d) ", name.c_str(), stability.index, stability.inertia_index);
       for (double value : stability.eigenvalues) std::printf(" %.8g", value);
       if (!stability.modes.empty())
-        std::printf("  lowest: %s-of-plane, %s", stability.modes[0].plane.c_str(),
+        std::printf("  lowest: %s plane, %s", (stability.modes[0].plane == "in" ? "in" : "out of"),
                     stability.modes[0].parity.c_str());
       std::printf("\n");
     }

@@ -5,6 +5,7 @@
 #include "windlass/equilibrium/record.hpp"
 #include "windlass/equilibrium/start.hpp"
 #include "windlass/rod/capstan.hpp"
+#include "windlass/scene/error.hpp"
 
 namespace windlass::equilibrium {
 
@@ -76,7 +77,7 @@ Solution solve(const scene::Scene& scene) {
   switch (scene.model.kind) {
     case ModelKind::closed_form: {
       if (!scene.has_cylinder || !scene.rod.infinite())
-        throw NoEquilibrium("model.kind = \"closed_form\" needs a cylinder and rod.length = \"inf\"");
+        throw InputError("model.kind = \"closed_form\": needs a cylinder and rod.length = \"inf\"");
       if (!rod::capstan::line_contact(scene.load.tension, scene.load.angle))
         throw NoEquilibrium(
             "the closed form has no line contact at this tension; model.kind = \"planar\" goes on");

@@ -20,10 +20,12 @@ namespace {
 constexpr int start_stages = 6;
 
 /// Is the state a solution of the unilateral problem: forces and gaps nonnegative? A force of zero (an event) passes.
+/// A free loop that only grazes the cylinder carries no force at all and is no equilibrium in contact.
 bool contacts_hold(RodProblem& problem, const Vector& x, const Vector& p) {
   for (const auto& event : problem.events(x, p))
     if (event.value < -1e-9) return false;
-  return true;
+  constexpr double least_force = 1e-12;  // of R_tot, dimensionless
+  return problem.target(problem.chain(), x, problem.loads(p)) > least_force;
 }
 
 ArcMesh mesh_for(Stretch stretch, const Loads& loads, double length) {
@@ -122,8 +124,7 @@ Started start_strut(const scene::Scene& scene, bool half, const std::vector<std:
   int iterations = 0;
   const Topology topology{{Stretch::tail}, {}, true, false};
   if (scene.ends.shortening && !(goal > 0.0))
-    throw NoEquilibrium(
-        "ends.shortening = 0: a straight inextensible strut carries any thrust up to buckling; give "
+    throw scene::SceneError("ends.shortening = 0: a straight inextensible strut carries any thrust up to buckling; give "
         "load.thrust, or a shortening above 0");
   // From a moderate bow up in steps, or down by factors: the amplitude goes like the square root.
   constexpr double first = 0.02;

@@ -296,7 +296,7 @@ BOOST_AUTO_TEST_CASE(no_equilibrium_in_contact) {
   // The free loop is wider than the cylinder below T = 0.284. Known defect, hence warnings: the cold start takes the free
   // loop, which grazes the cylinder with a contact force of zero, for an equilibrium in contact.
   const Outcome outcome = run_program(planar("solve", {"--set", "load.tension=0.2", "--json"}));
-  BOOST_WARN_EQUAL(outcome.status, 2);
+  BOOST_TEST(outcome.status == 2);
   if (outcome.status == 0) {
     BOOST_TEST(nlohmann::json::parse(outcome.out)["stability"]["degenerate"].get<bool>());
   } else {
