@@ -21,8 +21,9 @@ struct Started {
 };
 
 /// One equilibrium from nothing. The contact topology is an outcome: first the closed form's (a line contact where it
-/// can exist, else a touch), then what the complementarity problem on a fixed mesh finds, then the state reached from a
-/// higher tension by continuation through all contact events.
+/// can exist, else a touch), then the state reached from a higher tension by continuation through all contact events.
+/// (discovery.hpp finds topologies by complementarity on a fixed mesh; it takes seconds where this takes milliseconds,
+/// and serves as its independent check in the tests.)
 /// @throws NoEquilibrium
 Started cold_start(const scene::Scene& scene, bool spatial, bool half, const std::vector<std::string>& keys);
 
