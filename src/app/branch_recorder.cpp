@@ -102,10 +102,12 @@ void BranchRecorder::on_special_point(const Branch& branch, const Point& point) 
     entry.mode = output::SpecialMode{mode.plane, mode.parity};
   }
   writer_.add_special_point(entry);
-  progress_.note(fmt::format("{:<4} {:<12} T = {:.10g}  phi = {:.10g}  precision {:.1e}{}{}", entry.label,
-                             entry.type, entry.T, entry.phi, entry.precision,
-                             entry.mode ? (entry.mode->plane == "in" ? "  in plane, " : "  out of plane, ") + entry.mode->parity : "",
-                             entry.after.empty() ? "" : "  " + entry.before + " -> " + entry.after));
+  progress_.note(fmt::format(
+      "{:<4} {:<12} T = {:.10g}  phi = {:.10g}  precision {:.1e}{}{}", entry.label, entry.type, entry.T,
+      entry.phi, entry.precision,
+      entry.mode ? (entry.mode->plane == "in" ? "  in plane, " : "  out of plane, ") + entry.mode->parity
+                 : "",
+      entry.after.empty() ? "" : "  " + entry.before + " -> " + entry.after));
   resumed_ = Clock::now();
 }
 

@@ -124,7 +124,8 @@ Started start_strut(const scene::Scene& scene, bool half, const std::vector<std:
   int iterations = 0;
   const Topology topology{{Stretch::tail}, {}, true, false};
   if (scene.ends.shortening && !(goal > 0.0))
-    throw scene::SceneError("ends.shortening = 0: a straight inextensible strut carries any thrust up to buckling; give "
+    throw scene::SceneError(
+        "ends.shortening = 0: a straight inextensible strut carries any thrust up to buckling; give "
         "load.thrust, or a shortening above 0");
   // From a moderate bow up in steps, or down by factors: the amplitude goes like the square root.
   constexpr double first = 0.02;
