@@ -80,6 +80,8 @@ BranchSetup set_up_branch(const BranchRequest& request) {
 }
 
 output::RunWriter open_run(const BranchRequest& request, const std::string& command) {
+  if (request.common.resume)
+    throw InputError("--resume: not supported yet; restart from a stored point with `continue RUN LABEL`");
   output::WriterOptions options;
   options.force = request.common.force;
   options.command = command;

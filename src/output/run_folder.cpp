@@ -26,10 +26,9 @@ void prepare_folder(const fs::path& folder, bool force) {
     throw OutputError("cannot make the run folder " + folder.string() + ": a file of that name exists");
   }
   if (fs::is_directory(folder, error) && !fs::is_empty(folder, error) && !force) {
-    throw OutputError(
-        "the run folder " + folder.string() +
-        " exists and is not empty; use --force to replace the run in it, --resume to go on with it, "
-        "or --out to write elsewhere");
+    throw OutputError("the run folder " + folder.string() +
+                      " exists and is not empty; use --force to replace the run in it, "
+                      "or --out to write elsewhere");
   }
   fs::create_directories(folder, error);
   if (error) throw OutputError("cannot make the run folder " + folder.string() + ": " + error.message());
