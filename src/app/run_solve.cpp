@@ -18,10 +18,7 @@ using equilibrium::Solution;
 
 void add_stability(Solution& solution, const scene::Scene& scene) {
   const auto begin = std::chrono::steady_clock::now();
-  const std::string key = scene.has_cylinder      ? "load.tension"
-                          : scene.ends.shortening ? "ends.shortening"
-                                                  : "load.thrust";
-  auto problem = equilibrium::reopen(scene, solution.restart, {key});
+  auto problem = equilibrium::reopen(scene, solution.restart, {equilibrium::load_key(scene)});
   stability::SpectrumSolver solver;
   solution.stability =
       stability::analyse(*problem, solution.restart.state, problem->parameters(), 6, true, solver);

@@ -4,6 +4,7 @@
 
 #include "app/commands.hpp"
 #include "windlass/equilibrium/record.hpp"
+#include "windlass/equilibrium/start.hpp"
 #include "windlass/output/run_folder.hpp"
 #include "windlass/petsc/session.hpp"
 #include "windlass/scene/keys.hpp"
@@ -28,10 +29,7 @@ int run_stability(const RunRequest& request) {
     scene::Scene at = scene;
     if (stored.has_cylinder) at.load.tension = stored.T, at.load.angle = stored.phi;
     if (!stored.has_cylinder && at.ends.shortening) at.ends.shortening = stored.shortening;
-    const std::string parameter = stored.has_cylinder  ? "load.tension"
-                                  : at.ends.shortening ? "ends.shortening"
-                                                       : "load.thrust";
-    auto problem = equilibrium::reopen(at, stored.restart, {parameter});
+    auto problem = equilibrium::reopen(at, stored.restart, {equilibrium::load_key(at)});
     const equilibrium::Stability stability = stability::analyse(
         *problem, stored.restart.state, problem->parameters(), request.eigenvalues, true, solver);
     writer.set_stability(name, stability);

@@ -68,11 +68,14 @@ Solution solve_automatically(const scene::Scene& scene, const std::vector<std::s
 
 }  // namespace
 
+std::string load_key(const scene::Scene& scene) {
+  if (scene.has_cylinder) return "load.tension";
+  return scene.ends.shortening ? "ends.shortening" : "load.thrust";
+}
+
 Solution solve(const scene::Scene& scene) {
   const auto begin = std::chrono::steady_clock::now();
-  const std::vector<std::string> keys = scene.has_cylinder      ? std::vector<std::string>{"load.tension"}
-                                        : scene.ends.shortening ? std::vector<std::string>{"ends.shortening"}
-                                                                : std::vector<std::string>{"load.thrust"};
+  const std::vector<std::string> keys{load_key(scene)};
   Solution solution;
   switch (scene.model.kind) {
     case ModelKind::closed_form: {

@@ -37,6 +37,9 @@ Started unfold(RodProblem& halved, const Vector& x, const Vector& p, int iterati
 /// which the flat state is stable. nullopt if there is none.
 std::optional<Started> stable_neighbour(Started& unstable);
 
+/// The scene key of the load that is given: load.tension, or for struts ends.shortening or load.thrust.
+std::string load_key(const scene::Scene& scene);
+
 /// `solve`: climbs the rungs closed form, planar, Kirchhoff half, Kirchhoff full as far as the scene needs; the result
 /// names the rung and the reason. @throws NoEquilibrium
 Solution solve(const scene::Scene& scene);
