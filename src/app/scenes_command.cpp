@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 /// Shipped scenes stand beside the sources the program was built from; WINDLASS_SCENES names another place.
 fs::path scenes_folder() {
   if (const char* place = std::getenv("WINDLASS_SCENES"); place && *place) return place;
-  return fs::path(WINDLASS_SOURCE_DIR) / "data" / "scenes";
+  return fs::path(WINDLASS_SCENES_FOLDER);
 }
 
 std::vector<fs::path> scene_files(const fs::path& folder) {

@@ -1,9 +1,5 @@
 #include "assets.hpp"
 
-#ifndef WINDLASS_REPORT_FOLDER
-#define WINDLASS_REPORT_FOLDER WINDLASS_SOURCE_DIR "/src/output/report"
-#endif
-
 // The assembler copies the files into the program: a C++ array of Plotly's 1.7 MB would take minutes to compile.
 #define WINDLASS_EMBED(name, file)                                                                           \
   __asm__(".section .rodata\n.global windlass_" name "_begin\n.global windlass_" name "_end\nwindlass_" name \
