@@ -37,6 +37,39 @@ void CollocationArc<Density>::gather(const ArcPoint& at, int element, Nodes& q) 
 
 namespace {
 
+/// Rows of a table, one a Gauss point, padded with zeros to a fixed length that fills whole vector registers.
+struct PaddedTable {
+  static constexpr int length = 12;
+  static_assert(length >= max_stages + 2);
+  using Row = Eigen::Array<double, length, 1>;
+  std::array<Row, max_stages + 1> value, slope;
+
+  explicit PaddedTable(int stages) {
+    const CollocationTable& table = CollocationTable::get(stages);
+    for (int g = 0; g < stages; ++g) {
+      value[g].setZero(), slope[g].setZero();
+      value[g].head(stages + 1) = table.value.row(g).transpose().array();
+      slope[g].head(stages + 1) = table.slope.row(g).transpose().array();
+    }
+  }
+
+  static const PaddedTable& get(int stages) {
+    static const auto tables = [] {
+      std::vector<PaddedTable> all;
+      for (int m = min_stages; m <= max_stages + 1; ++m) all.emplace_back(m);
+      return all;
+    }();
+    return tables[stages - min_stages];
+  }
+
+  template <class Nodes>
+  static Row pad(const Nodes& q) {
+    Row out = Row::Zero();
+    for (Eigen::Index i = 0; i < q.size(); ++i) out(i) = q(i);
+    return out;
+  }
+};
+
 /// Value and derivative of an element's polynomial at Gauss point g.
 template <class Nodes, class Ambient>
 void evaluate(const CollocationTable& table, const Nodes& q, int g, double inverse, Ambient& value,
@@ -57,20 +90,44 @@ void CollocationArc<Density>::element_gradient(const Nodes& q, const ArcPoint& a
                                                Force& g_n, double& g_length) const {
   const double h = mesh_[element + 1] - mesh_[element], inverse = 1.0 / (h * at.length);
   const Eigen::Map<const Force> n(at.n);
-  out.setZero(A, stages() + 1);
-  Ambient value, slope;
+  const int m = stages();
+  if constexpr (A == 1) {
+    const PaddedTable& table = PaddedTable::get(m);
+    const PaddedTable::Row nodes = PaddedTable::pad(q);
+    PaddedTable::Row sum = PaddedTable::Row::Zero();
+    Ambient value, slope;
+    Eigen::Vector2d gz;
+    Force d;
+    for (int g = 0; g < m; ++g) {
+      value(0) = (table.value[g] * nodes).sum(), slope(0) = inverse * (table.slope[g] * nodes).sum();
+      const double lagrangian = density_.first(value, slope, n, gz, d);
+      const double w = h * table_.weight(g), wl = w * at.length;
+      g_n -= wl * d;
+      g_length += w * (lagrangian - gz(1) * slope(0));
+      sum += (wl * gz(0)) * table.value[g] + (table_.weight(g) * gz(1)) * table.slope[g];
+    }
+    out.resize(A, m + 1);
+    for (int i = 0; i <= m; ++i) out(i) = sum(i);
+    return;
+  }
+  // All Gauss points at once: products of small matrices, whose inner loops run over contiguous numbers.
+  Nodes values(A, m), slopes(A, m);
+  values.noalias() = q.lazyProduct(table_.value.transpose());
+  slopes.noalias() = q.lazyProduct(table_.slope.transpose());
+  slopes *= inverse;
   Eigen::Matrix<double, 2 * A, 1> gz;
   Force d;
-  for (int g = 0; g < stages(); ++g) {
-    evaluate(table_, q, g, inverse, value, slope);
+  for (int g = 0; g < m; ++g) {
+    const Ambient value = values.col(g), slope = slopes.col(g);
     const double lagrangian = density_.first(value, slope, n, gz, d);
     const double w = h * table_.weight(g), wl = w * at.length;
-    for (int i = 0; i <= stages(); ++i)
-      out.col(i) += (wl * table_.value(g, i)) * gz.template head<A>() +
-                    (w / h * table_.slope(g, i)) * gz.template tail<A>();
     g_n -= wl * d;
     g_length += w * (lagrangian - gz.template tail<A>().dot(slope));
+    values.col(g) = wl * gz.template head<A>();
+    slopes.col(g) = table_.weight(g) * gz.template tail<A>();
   }
+  out.noalias() = values.lazyProduct(table_.value);
+  out.noalias() += slopes.lazyProduct(table_.slope);
 }
 
 template <class Density>
@@ -102,6 +159,10 @@ void CollocationArc<Density>::gradient(const ArcPoint& at, double* interior, End
 template <class Density>
 void CollocationArc<Density>::element_hessian(const Nodes& q, const ArcPoint& at, int element,
                                               Eigen::MatrixXd& k) const {
+  if constexpr (A == 1) {
+    scalar_hessian(q, at, element, k);
+    return;
+  }
   const int m = stages(), columns = inner() + 2 * D, length = inner() + E - 1;
   const double h = mesh_[element + 1] - mesh_[element], inverse = 1.0 / (h * at.length);
   const Eigen::Map<const Force> n(at.n);
@@ -143,6 +204,45 @@ void CollocationArc<Density>::element_hessian(const Nodes& q, const ArcPoint& at
   for (int i = 0; i <= m; ++i) {
     const double radial = density_.radial(q.col(i), ambient[i]);
     for (int j = 0; j < D; ++j) k(column(i) + j, column(i) + j) += radial;
+  }
+}
+
+template <class Density>
+void CollocationArc<Density>::scalar_hessian(const Nodes& q, const ArcPoint& at, int element,
+                                             Eigen::MatrixXd& k) const requires(A == 1) {
+  const int m = stages(), first = inner() + 2 * D, length = inner() + E - 1;
+  const double h = mesh_[element + 1] - mesh_[element], inverse = 1.0 / (h * at.length);
+  const Eigen::Map<const Force> n(at.n);
+  using Row = PaddedTable::Row;
+  const PaddedTable& table = PaddedTable::get(m);
+  const Row nodes = PaddedTable::pad(q);
+  std::array<Row, max_points> pairs;  // second derivatives, a column for each Lagrange point
+  std::array<Row, P + 1> forces;      // and those with n and ℓ
+  for (int j = 0; j <= m; ++j) pairs[j].setZero();
+  for (Row& row : forces) row.setZero();
+  Ambient value, slope;
+  Eigen::Matrix<double, 2 * A, 1> gz;
+  Eigen::Matrix<double, 2 * A, 2 * A> hz;
+  Force d;
+  Eigen::Matrix<double, P, A> dd;
+  k.setZero();
+  for (int g = 0; g < m; ++g) {
+    const Row &v = table.value[g], s = inverse * table.slope[g];
+    value(0) = (v * nodes).sum(), slope(0) = (s * nodes).sum();
+    density_.second(value, slope, n, gz, hz, d, dd);
+    const double w = h * table_.weight(g), wl = w * at.length;
+    for (int j = 0; j <= m; ++j)
+      pairs[j] +=
+          (wl * (hz(0, 0) * v(j) + hz(0, 1) * s(j))) * v + (wl * (hz(1, 0) * v(j) + hz(1, 1) * s(j))) * s;
+    for (int c = 0; c < P; ++c) forces[c] -= (wl * dd(c)) * v;
+    forces[P] += (w * (gz(0) - hz(0, 1) * slope(0))) * v - (w * hz(1, 1) * slope(0)) * s;
+    k.template block<1, P>(length, first) -= w * d.transpose();
+    k(length, length) += w / at.length * slope(0) * hz(1, 1) * slope(0);
+  }
+  for (int j = 0; j <= m; ++j) {
+    for (int c = 0; c <= P; ++c) k(first + c, column(j)) = forces[c](j);
+    for (int i = 0; i <= m; ++i)
+      if (column(i) >= column(j)) k(column(i), column(j)) = pairs[j](i);
   }
 }
 
@@ -356,13 +456,22 @@ Eigen::VectorXd CollocationArc<Density>::transfer(const ArcPoint& at, const Arc&
   Eigen::VectorXd out(target.interior_ambient());
   Nodes q;
   int e = 0, gathered = -1;
+  const bool same =
+      mesh == mesh_;  // the error estimate: only the stages differ, so that every element is alike
+  Eigen::MatrixXd basis(stages() + 1, fine);
+  if (same)
+    for (int i = 0; i < fine; ++i) basis.col(i) = lagrange_basis(table_.lobatto, points(i));
   for (int k = 1; k <= target.interior_nodes(); ++k) {
     const int t = k / fine;
     const double sigma = mesh[t] + (mesh[t + 1] - mesh[t]) * points(k % fine);
-    while (e + 1 < elements() && sigma > mesh_[e + 1]) ++e;
+    if (same)
+      e = t;
+    else
+      while (e + 1 < elements() && sigma > mesh_[e + 1]) ++e;
     if (e != gathered) gather(at, gathered = e, q);
     const double x = (sigma - mesh_[e]) / (mesh_[e + 1] - mesh_[e]);
-    const Ambient value = q * lagrange_basis(table_.lobatto, x);
+    const Ambient value =
+        same ? Ambient(q * basis.col(k % fine)) : Ambient(q * lagrange_basis(table_.lobatto, x));
     out.template segment<A>((k - 1) * A) = density_.normalised(value);
   }
   return out;

@@ -16,6 +16,12 @@ namespace {
 
 Vector3d outward(double a) { return {std::sin(a), -std::cos(a), 0.0}; }
 
+/// Frame of a planar rod whose tangent makes the angle θ with e_x.
+rod::Quaternion flat_frame(double theta) {
+  static const rod::Quaternion base = contact::spatial::surface_frame(0.0, 0.0, 0.0);
+  return rod::product(rod::rotation(Vector3d::UnitZ(), theta), base);
+}
+
 void resize(Piece& piece, Eigen::Index count) {
   piece.s.resize(count);
   piece.r.resize(3, count);
@@ -36,7 +42,7 @@ void sample_planar_line(const bvp::ArcSamples& samples, const RodKind& rod, doub
     const double a = a0 + samples.displacement(0, k);
     piece.angle(k) = a;
     piece.r.col(k) = outward(a);
-    piece.q.col(k) = contact::spatial::surface_frame(a, 0.0, 0.0);
+    piece.q.col(k) = flat_frame(a);
     piece.n.col(k) = tension * Vector3d(std::cos(a), std::sin(a), 0.0);
     piece.m.col(k) = Vector3d(0.0, 0.0, rod.bending_stiffness);
     piece.p(k) = tension;
@@ -97,8 +103,7 @@ void sample_free(const bvp::ArcSamples& samples, const RodKind& rod, const Vecto
     r.head(samples.displacement.rows()) += samples.displacement.col(k);
     piece.r.col(k) = r;
     piece.n.col(k) = n;
-    piece.q.col(k) = rod.spatial ? Eigen::Vector4d(samples.q.col(k))
-                                 : contact::spatial::surface_frame(samples.q(0, k), 0.0, 0.0);
+    piece.q.col(k) = rod.spatial ? Eigen::Vector4d(samples.q.col(k)) : flat_frame(samples.q(0, k));
     Vector3d m(0.0, 0.0, 0.0);
     if (rod.spatial)
       m = 0.5 * rod::directors(piece.q.col(k)) * samples.momentum.col(k);
@@ -139,70 +144,101 @@ void unroll(std::vector<Piece>& pieces) {
 
 double gap(const Vector3d& r) { return std::hypot(r(0), r(1)) - 1.0; }
 
+namespace {
+
+/// Arclengths of the samples of a link.
+void place_samples(const Chain& chain, const VectorXd& x, const Loads& loads, int link,
+                   const Chain::Placed& placed, const bvp::ArcSamples& samples, Piece& piece) {
+  double begin = chain.arclength(x, loads, link);
+  const double end = chain.arclength(x, loads, link + 1);
+  if (std::isinf(begin)) begin = end - placed.length;
+  piece.s = VectorXd::Constant(samples.sigma.size(), begin) + placed.length * samples.sigma;
+  if (!std::isinf(end)) piece.s(piece.s.size() - 1) = end;
+}
+
+/// One link as a curve, but for what `profile` fills in from its neighbours.
+Piece sample_link(const Chain& chain, const RodKind& rod, const VectorXd& x, const Loads& loads, int link,
+                  Stretch stretch) {
+  const Chain::Placed placed = chain.place(x, loads, link);
+  const Arc& arc = *chain.link(link).arc;
+  const bvp::ArcSamples samples = arc.sample(placed.point());
+  Piece piece;
+  piece.stretch = stretch;
+  piece.stride = arc.elements() > 0 ? arc.stages() : 1;
+  resize(piece, samples.sigma.size());
+  place_samples(chain, x, loads, link, placed, samples, piece);
+  if (stretch == Stretch::line) {
+    if (rod.spatial) {
+      sample_surface(samples, rod, placed.left.x.head<2>(), placed.n, piece);
+      piece.force = surface_force(piece, samples, rod, placed.n, placed.length);
+    } else {
+      sample_planar_line(samples, rod, placed.left.x(0), placed.n(0), piece);
+      piece.force = piece.p(0) * placed.length;
+    }
+  } else {
+    Vector3d n = Vector3d::Zero(), start = Vector3d::Zero();
+    n.head(placed.n.size()) = placed.n;
+    const JointKind before = chain.joint(link).kind();
+    if ((before != JointKind::end && before != JointKind::infinity) || rod.strut) {
+      start.head(placed.left.x.size()) = placed.left.x;
+    } else {  // a left tail hangs on the joint at its end
+      start.head(placed.right.x.size()) = placed.right.x;
+      start.head(placed.n.size()) -= samples.displacement.col(samples.displacement.cols() - 1);
+    }
+    sample_free(samples, rod, start, n, piece);
+  }
+  if (!rod.spatial) {
+    piece.heading = stretch == Stretch::line ? piece.angle : VectorXd(samples.q.row(0));
+    piece.inclination.setZero();
+    return piece;
+  }
+  for (Eigen::Index k = 0; k < piece.s.size(); ++k) {
+    const Vector3d t = rod::directors(piece.q.col(k)).col(2);
+    piece.heading(k) = std::atan2(t(1), t(0));
+    piece.inclination(k) = std::asin(std::clamp(t(2), -1.0, 1.0));
+  }
+  return piece;
+}
+
+/// Outward force on the rod at a contact joint, from the internal forces on its two sides.
+double contact_force(const Vector3d& n_before, const Vector3d& n_after, double angle) {
+  return (n_before - n_after).dot(outward(angle));
+}
+
+/// n(−s) at a symmetry point: the half-turn about e_y of n(s), reversed.
+Vector3d reflected(const Vector3d& n) { return {n(0), -n(1), n(2)}; }
+
+bool is_contact(const Chain& chain, int joint) {
+  const JointKind kind = chain.joint(joint).kind();
+  return kind == JointKind::touch || kind == JointKind::edge;
+}
+
+/// How often a contact counts on the whole rod.
+double copies(const Topology& topology, int joint) {
+  return topology.half && !(topology.mid_touch && joint == 0) ? 2.0 : 1.0;
+}
+
+}  // namespace
+
 Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod, const VectorXd& x,
                 const Loads& loads) {
   Profile out;
   const std::vector<Stretch> kinds = stretches(topology);
-  for (int i = 0; i < chain.link_count(); ++i) {
-    const Chain::Placed placed = chain.place(x, loads, i);
-    const Arc& arc = *chain.link(i).arc;
-    const bvp::ArcSamples samples = arc.sample(placed.point());
-    Piece piece;
-    piece.stretch = kinds[i];
-    piece.stride = arc.elements() > 0 ? arc.stages() : 1;
-    resize(piece, samples.sigma.size());
-    double begin = chain.arclength(x, loads, i);
-    const double end = chain.arclength(x, loads, i + 1);
-    if (std::isinf(begin)) begin = end - placed.length;
-    piece.s = VectorXd::Constant(samples.sigma.size(), begin) + placed.length * samples.sigma;
-    if (!std::isinf(end)) piece.s(piece.s.size() - 1) = end;
-    if (kinds[i] == Stretch::line) {
-      if (rod.spatial) {
-        sample_surface(samples, rod, placed.left.x.head<2>(), placed.n, piece);
-        piece.force = surface_force(piece, samples, rod, placed.n, placed.length);
-      } else {
-        sample_planar_line(samples, rod, placed.left.x(0), placed.n(0), piece);
-        piece.force = piece.p(0) * placed.length;
-      }
-    } else {
-      Vector3d n = Vector3d::Zero(), start = Vector3d::Zero();
-      n.head(placed.n.size()) = placed.n;
-      const bool from_left =
-          chain.joint(i).kind() != JointKind::end && chain.joint(i).kind() != JointKind::infinity;
-      if (from_left || rod.strut) {
-        start.head(placed.left.x.size()) = placed.left.x;
-      } else {  // a left tail hangs on the joint at its end
-        start.head(placed.right.x.size()) = placed.right.x;
-        start.head(placed.n.size()) -= samples.displacement.col(samples.displacement.cols() - 1);
-      }
-      sample_free(samples, rod, start, n, piece);
-    }
-    for (Eigen::Index k = 0; k < piece.s.size(); ++k) {
-      const Vector3d t = rod::directors(piece.q.col(k)).col(2);
-      piece.heading(k) = rod.spatial || kinds[i] == Stretch::line ? std::atan2(t(1), t(0)) : samples.q(0, k);
-    }
-    for (Eigen::Index k = 0; k < piece.s.size(); ++k)
-      piece.inclination(k) = std::asin(std::clamp(rod::directors(piece.q.col(k))(2, 2), -1.0, 1.0));
-    out.pieces.push_back(std::move(piece));
-  }
+  for (int i = 0; i < chain.link_count(); ++i)
+    out.pieces.push_back(sample_link(chain, rod, x, loads, i, kinds[i]));
   unroll(out.pieces);
   for (int j = 0; j < chain.joint_count(); ++j) {
-    const JointKind kind = chain.joint(j).kind();
-    if (kind != JointKind::touch && kind != JointKind::edge) continue;
+    if (!is_contact(chain, j)) continue;
     Contact c;
     c.joint = j;
-    c.edge = kind == JointKind::edge;
+    c.edge = chain.joint(j).kind() == JointKind::edge;
     c.s = chain.arclength(x, loads, j);
     c.angle = chain.joint(j).angle(chain.coordinates(x, j));
     c.z = chain.joint(j).height(chain.coordinates(x, j));
     const Piece& after = out.pieces[j];
-    Vector3d n_before;
-    if (j > 0) {
-      n_before = out.pieces[j - 1].n.rightCols<1>();
-    } else {  // a touch at the symmetry point: n(−s) is the half-turn about e_y of n(s), reversed
-      n_before = Vector3d(after.n(0, 0), -after.n(1, 0), after.n(2, 0));
-    }
-    c.force = (n_before - after.n.col(0)).dot(outward(c.angle));
+    const Vector3d n_before =
+        j > 0 ? Vector3d(out.pieces[j - 1].n.rightCols<1>()) : reflected(after.n.col(0));
+    c.force = contact_force(n_before, after.n.col(0), c.angle);
     const Eigen::Matrix3d d = rod::directors(after.q.col(0));
     const Vector3d u = rod.natural + (d.transpose() * after.m.col(0)).cwiseQuotient(rod.stiffness);
     const Vector3d curvature = u(1) * d.col(0) - u(0) * d.col(1);
@@ -224,8 +260,31 @@ Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod
 double total_contact_force(const Profile& profile, const Topology& topology) {
   double sum = 0.0;
   for (const Piece& piece : profile.pieces) sum += piece.force * (topology.half ? 2.0 : 1.0);
-  for (const Contact& c : profile.contacts)
-    sum += c.force * (topology.half && !(topology.mid_touch && c.joint == 0) ? 2.0 : 1.0);
+  for (const Contact& c : profile.contacts) sum += c.force * copies(topology, c.joint);
+  return sum;
+}
+
+double total_contact_force(const Chain& chain, const Topology& topology, const RodKind& rod,
+                           const VectorXd& x, const Loads& loads) {
+  const std::vector<Stretch> kinds = stretches(topology);
+  double sum = 0.0;
+  Vector3d n_before = Vector3d::Zero();
+  for (int i = 0; i < chain.link_count(); ++i) {
+    Vector3d n_first = Vector3d::Zero(), n_last;
+    if (kinds[i] == Stretch::line) {
+      const Piece piece = sample_link(chain, rod, x, loads, i, kinds[i]);
+      sum += piece.force * (topology.half ? 2.0 : 1.0);
+      n_first = piece.n.col(0), n_last = piece.n.rightCols<1>();
+    } else {  // the force is constant on a free arc
+      const VectorXd n = chain.force(x, loads, i);
+      n_first.head(n.size()) = n;
+      n_last = n_first;
+    }
+    if (is_contact(chain, i))
+      sum += copies(topology, i) * contact_force(i > 0 ? n_before : reflected(n_first), n_first,
+                                                 chain.joint(i).angle(chain.coordinates(x, i)));
+    n_before = n_last;
+  }
   return sum;
 }
 

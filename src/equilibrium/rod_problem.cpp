@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "windlass/scene/keys.hpp"
 
@@ -72,6 +73,7 @@ void RodProblem::rebuild() {
   base_ = loads_of(scene_);
   chain_ = chain::build_chain(rod_, topology_, meshes_);
   finer_.reset();
+  factored_x_.resize(0);
 }
 
 Loads RodProblem::loads(const Vector& p) {
@@ -108,11 +110,17 @@ scene::Scene RodProblem::scene_at(const Vector& p) const {
   return scene;
 }
 
-Vector RodProblem::residual(const Vector& x, const Vector& p) { return chain_->residual(x, loads(p)); }
+Vector RodProblem::residual(const Vector& x, const Vector& p) {
+  factored_x_.resize(0);  // the index reads the arcs' gradients too, which now belong to x
+  return chain_->residual(x, loads(p));
+}
 
 void RodProblem::factor(const Vector& x, const Vector& p, const Eigen::MatrixXd& b, const Eigen::MatrixXd& c,
                         const Eigen::MatrixXd& d) {
+  factored_x_.resize(0);
   chain_->factor(x, loads(p), b, c, d);
+  factored_x_ = x;
+  factored_p_ = p;
 }
 
 int RodProblem::index(const Vector& x, const Vector& p) {
@@ -138,8 +146,9 @@ bool RodProblem::degenerate(const Vector& x, const Loads& at) const {
 
 int RodProblem::total_index(const Vector& x, const Vector& p) {
   const Loads at = loads(p);
-  const Eigen::MatrixXd none(chain_->size(), 0);
-  chain_->factor(x, at, none, none, Eigen::MatrixXd(0, 0));
+  if (factored_x_.size() == 0 || factored_x_ != x || factored_p_ != p)
+    factor(x, p, Eigen::MatrixXd(chain_->size(), 0), Eigen::MatrixXd(chain_->size(), 0),
+           Eigen::MatrixXd(0, 0));
   return chain_->index(x, at, contact::Parity::even) + chain_->index(x, at, contact::Parity::odd);
 }
 
@@ -165,6 +174,7 @@ chain::Profile RodProblem::profile(const Vector& x, const Vector& p) {
 }
 
 int RodProblem::polish(Vector& x, const Vector& p, int most) {
+  factored_x_.resize(0);
   const Loads at = loads(p);
   const Eigen::MatrixXd none(chain_->size(), 0), corner(0, 0);
   double last = 1e300;
@@ -185,8 +195,7 @@ int RodProblem::polish(Vector& x, const Vector& p, int most) {
 }
 
 double RodProblem::target(const chain::Chain& chain, const Vector& x, const Loads& at) const {
-  if (!rod_.strut)
-    return chain::total_contact_force(chain::profile(chain, topology_, rod_, x, at), topology_);
+  if (!rod_.strut) return chain::total_contact_force(chain, topology_, rod_, x, at);
   return -chain.force(x, at, chain.link_count() - 1)(0);
 }
 
@@ -293,23 +302,38 @@ Vector RodProblem::refine(Vector x, const Vector& p, int rounds) {
   return x;
 }
 
-std::optional<Vector> RodProblem::adapt(const Vector& x, const Vector& p) {
-  const double too_large = excess(x, p);
-  if (too_large <= 1.0) return std::nullopt;
-  const Loads at = loads(p);
-  const double order = 2.0 * meshes_.back().stages;
-  std::vector<chain::ArcMesh> old_meshes = meshes_;
-  meshes_ = new_meshes(x, at, std::pow(30.0 * too_large, 1.0 / order));
+std::optional<Vector> RodProblem::moved_to(std::vector<chain::ArcMesh> meshes, const Vector& x,
+                                           const Vector& p, bool within) {
+  const std::vector<chain::ArcMesh> old_meshes = std::exchange(meshes_, std::move(meshes));
+  const double old_error = last_error_;
   const std::unique_ptr<chain::Chain> old = std::move(chain_);
   rebuild();
-  Vector fresh = chain::transfer_state(*old, *chain_, x, at);
-  if (polish(fresh, p) < 0) {  // keep what works
-    meshes_ = old_meshes;
-    rebuild();
-    return std::nullopt;
+  Vector fresh = chain::transfer_state(*old, *chain_, x, loads(p));
+  if (polish(fresh, p) >= 0) {
+    const double too_large = excess(fresh, p);
+    if (!within || too_large <= 1.0) return fresh;
   }
-  error_estimate(fresh, p);
-  return fresh;
+  meshes_ = old_meshes;  // keep what works
+  rebuild();
+  last_error_ = old_error;
+  return std::nullopt;
+}
+
+std::optional<Vector> RodProblem::adapt(const Vector& x, const Vector& p) {
+  // A mesh far finer than needed costs as much as one too coarse: shed when a quarter of it or more is superfluous.
+  constexpr double superfluous = 1e-3, worthwhile = 0.75;
+  const double too_large = excess(x, p);
+  const bool coarsen = too_large < superfluous;
+  if (too_large <= 1.0 && !coarsen) return std::nullopt;
+  const double order = 2.0 * meshes_.back().stages;
+  const auto meshes = new_meshes(x, loads(p), std::pow(30.0 * too_large, 1.0 / order));
+  const auto elements = [](const std::vector<chain::ArcMesh>& arcs) {
+    std::size_t sum = 0;
+    for (const chain::ArcMesh& arc : arcs) sum += arc.nodes.size() - 1;
+    return static_cast<double>(sum);
+  };
+  if (coarsen && elements(meshes) > worthwhile * elements(meshes_)) return std::nullopt;
+  return moved_to(meshes, x, p, coarsen);
 }
 
 std::shared_ptr<continuation::Problem> RodProblem::clone() const {

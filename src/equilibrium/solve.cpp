@@ -17,7 +17,7 @@ namespace {
 void confirm(Started& started) {
   NewtonSolver newton;
   const NewtonResult result =
-      newton.solve(started.problem->chain(), started.x, started.problem->loads(started.p));
+      newton.solve(started.problem->chain_to_factor(), started.x, started.problem->loads(started.p));
   if (!result.converged) throw NoEquilibrium("SNES did not accept the state: " + result.reason);
   started.newton_iterations += result.iterations;
 }

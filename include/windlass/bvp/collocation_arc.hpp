@@ -64,6 +64,9 @@ class CollocationArc final : public Arc {
                         double& g_length) const;
   /// Hessian of one element's action, ordered interior, left, right, n, ℓ; lower triangle valid.
   void element_hessian(const Nodes& q, const ArcPoint& at, int element, Eigen::MatrixXd& k) const;
+  /// The same for A = 1, where a product for each pair of Lagrange points is all there is.
+  void scalar_hessian(const Nodes& q, const ArcPoint& at, int element, Eigen::MatrixXd& k) const
+      requires(A == 1);
   int inner() const { return D * (stages() - 1); }  ///< interior unknowns of an element
   /// Column of an element matrix where the unknowns of Lagrange point i start.
   int column(int i) const { return i == 0 ? inner() : i == stages() ? inner() + D : (i - 1) * D; }

@@ -49,6 +49,9 @@ Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod
 
 /// Sum of the sizes of all contact forces of the whole rod (both halves for a half chain).
 double total_contact_force(const Profile& profile, const Topology& topology);
+/// The same without sampling free arcs.
+double total_contact_force(const Chain& chain, const Topology& topology, const RodKind& rod,
+                           const VectorXd& x, const Loads& loads);
 
 /// Outward gap sqrt(x² + y²) − 1.
 double gap(const Eigen::Vector3d& r);

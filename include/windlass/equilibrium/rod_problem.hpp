@@ -37,7 +37,7 @@ class RodProblem final : public continuation::Problem {
   /// Negative directions among those this chain can follow: a half chain counts even variations only, since its own
   /// equations stay regular where an odd mode becomes unstable. Reads the last factorisation.
   int index(const Vector& x, const Vector& p) override;
-  /// Negative directions of the whole rod, both parities. Factors anew.
+  /// Negative directions of the whole rod, both parities. Factors anew unless the last factorisation was made here.
   int total_index(const Vector& x, const Vector& p);
   int determinant_sign() override { return chain_->determinant_sign(); }
   Vector retract(const Vector& x, const Vector& dx) const override { return chain_->retract(x, dx); }
@@ -64,7 +64,7 @@ class RodProblem final : public continuation::Problem {
   scene::Scene scene_at(const Vector& p) const;
 
   const chain::Chain& chain() const { return *chain_; }
-  chain::Chain& chain() { return *chain_; }
+  chain::Chain& chain_to_factor() { return factored_x_.resize(0), *chain_; }
   const Topology& topology() const { return topology_; }
   const chain::RodKind& rod() const { return rod_; }
   const std::vector<chain::ArcMesh>& meshes() const { return meshes_; }
@@ -81,6 +81,10 @@ class RodProblem final : public continuation::Problem {
   /// Errors divided by what is allowed: of the target by the tolerance, of the nodes by the certificate's level.
   double excess(const Vector& x, const Vector& p);
   std::vector<chain::ArcMesh> new_meshes(const Vector& x, const contact::Loads& loads, double growth) const;
+  /// The state on `meshes`, which replace the present ones; nullopt, and nothing is changed, where Newton fails or,
+  /// with `within`, the errors there are too large.
+  std::optional<Vector> moved_to(std::vector<chain::ArcMesh> meshes, const Vector& x, const Vector& p,
+                                 bool within);
 
   scene::Scene scene_;
   bool spatial_;
@@ -91,6 +95,7 @@ class RodProblem final : public continuation::Problem {
   contact::Loads base_;
   std::vector<double contact::Loads::*> fields_;  ///< where each parameter lives; null: rebuilds the rod
   std::unique_ptr<chain::Chain> chain_, finer_;   ///< finer_: one more stage, for the error estimate
+  Vector factored_x_, factored_p_;                ///< where chain_ was factored last; empty: unknown
   int index_ = -1;                                ///< last count at a sound point
   double last_error_ = 0.0;                       ///< relative, of the target
   double nodal_error_ = 0.0;                      ///< of frames and places at element ends

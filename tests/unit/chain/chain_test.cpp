@@ -54,7 +54,7 @@ BOOST_AUTO_TEST_SUITE(chain_algebra)
 BOOST_AUTO_TEST_CASE(bordered_solves_match_differences_of_the_residual) {
   for (const Case& c : cases) {
     equilibrium::Started s = state(c);
-    chain::Chain& chain = s.problem->chain();
+    chain::Chain& chain = s.problem->chain_to_factor();
     const contact::Loads loads = s.problem->loads(s.p);
     const MatrixXd j = differences(chain, s.x, loads);
     const Eigen::Index n = chain.size(), k = 2;
@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(an_equilibrium_is_a_fixed_point) {
 BOOST_AUTO_TEST_CASE(second_variation_is_symmetric_and_its_inertia_is_the_index) {
   for (const Case& c : cases) {
     equilibrium::Started s = state(c);
-    chain::Chain& chain = s.problem->chain();
+    chain::Chain& chain = s.problem->chain_to_factor();
     const contact::Loads loads = s.problem->loads(s.p);
     const MatrixXd none(chain.size(), 0);
     chain.factor(s.x, loads, none, none, MatrixXd(0, 0));
@@ -116,8 +116,10 @@ BOOST_AUTO_TEST_CASE(index_of_a_full_chain_is_the_sum_of_both_parities_of_its_ha
     equilibrium::Started half = state({"half", true, true, tension}),
                          full = state({"full", true, false, tension});
     const MatrixXd none_half(half.problem->size(), 0), none_full(full.problem->size(), 0);
-    half.problem->chain().factor(half.x, half.problem->loads(half.p), none_half, none_half, MatrixXd(0, 0));
-    full.problem->chain().factor(full.x, full.problem->loads(full.p), none_full, none_full, MatrixXd(0, 0));
+    half.problem->chain_to_factor().factor(half.x, half.problem->loads(half.p), none_half, none_half,
+                                           MatrixXd(0, 0));
+    full.problem->chain_to_factor().factor(full.x, full.problem->loads(full.p), none_full, none_full,
+                                           MatrixXd(0, 0));
     BOOST_TEST(half.problem->total_index(half.x, half.p) == full.problem->total_index(full.x, full.p));
   }
 }
