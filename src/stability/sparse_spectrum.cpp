@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace windlass::stability {
 
@@ -30,9 +31,18 @@ int finite_eigenvalues(const Chain::SecondVariation& variation) {
   return static_cast<int>((weights.array() > 0.0).count()) - variation.constraints;
 }
 
+std::vector<int> pattern_of(const Chain::SecondVariation& variation) {
+  std::vector<int> pattern;
+  for (const Sparse* part : {&variation.matrix, &variation.metric}) {
+    pattern.insert(pattern.end(), part->outerIndexPtr(), part->outerIndexPtr() + part->outerSize() + 1);
+    pattern.insert(pattern.end(), part->innerIndexPtr(), part->innerIndexPtr() + part->nonZeros());
+  }
+  return pattern;
+}
+
 }  // namespace
 
-SparseSpectrum::SparseSpectrum() {
+PatternSpectrum::PatternSpectrum() {
   check(EPSCreate(PETSC_COMM_SELF, eps_.put()));
   check(EPSSetProblemType(eps_, EPS_GHEP));
   check(EPSSetType(eps_, EPSKRYLOVSCHUR));
@@ -52,7 +62,11 @@ SparseSpectrum::SparseSpectrum() {
   check(EPSSetFromOptions(eps_));
 }
 
-int SparseSpectrum::negative_pivots() const {
+bool PatternSpectrum::fits(const Chain::SecondVariation& variation) const {
+  return pattern_ == pattern_of(variation);
+}
+
+int PatternSpectrum::negative_pivots() const {
   ST st = nullptr;
   KSP ksp = nullptr;
   PC pc = nullptr;
@@ -67,10 +81,18 @@ int SparseSpectrum::negative_pivots() const {
   return static_cast<int>(negative);
 }
 
-int SparseSpectrum::factor(const Chain::SecondVariation& variation) {
+int PatternSpectrum::factor(const Chain::SecondVariation& variation) {
   // K takes in M's pattern, so that K − σM has K's.
-  matrix_ = petsc::symmetric(variation.matrix + zero_like(variation.metric));
-  metric_ = petsc::symmetric(variation.metric);
+  petsc::MatHandle matrix = petsc::symmetric(variation.matrix + zero_like(variation.metric));
+  petsc::MatHandle metric = petsc::symmetric(variation.metric);
+  if (fits(variation)) {
+    check(MatCopy(matrix, matrix_, SAME_NONZERO_PATTERN));
+    check(MatCopy(metric, metric_, SAME_NONZERO_PATTERN));
+  } else {
+    matrix_ = std::move(matrix);
+    metric_ = std::move(metric);
+    pattern_ = pattern_of(variation);
+  }
   check(EPSSetOperators(eps_, matrix_, metric_));
   for (const double shift : shifts) {
     shift_ = shift;
@@ -85,8 +107,15 @@ int SparseSpectrum::factor(const Chain::SecondVariation& variation) {
   return 0;
 }
 
-EigenPairs SparseSpectrum::solve_for(int wanted) {
+EigenPairs PatternSpectrum::solve_for(int wanted) {
   check(EPSSetDimensions(eps_, wanted, PETSC_DEFAULT, PETSC_DEFAULT));
+  // Always the same random start, so that a point's spectrum does not depend on how many were computed before.
+  BV basis = nullptr;
+  PetscRandom random = nullptr;
+  check(EPSGetBV(eps_, &basis));
+  check(BVGetRandomContext(basis, &random));
+  check(PetscRandomSetSeed(random, 1));
+  check(PetscRandomSeed(random));
   check(EPSSolve(eps_));
   PetscInt converged = 0;
   check(EPSGetConverged(eps_, &converged));
@@ -105,7 +134,7 @@ EigenPairs SparseSpectrum::solve_for(int wanted) {
   return out;
 }
 
-EigenPairs SparseSpectrum::solve(const Chain::SecondVariation& variation, int count) {
+EigenPairs PatternSpectrum::solve(const Chain::SecondVariation& variation, int count) {
   const int index = factor(variation) - variation.constraints;
   const int most = std::max(1, finite_eigenvalues(variation));
   for (int wanted = std::min(count + std::max(index, 0), most);; wanted = std::min(2 * wanted, most)) {
@@ -120,6 +149,15 @@ EigenPairs SparseSpectrum::solve(const Chain::SecondVariation& variation, int co
     pairs.inertia_index = index;
     return pairs;
   }
+}
+
+EigenPairs SparseSpectrum::solve(const Chain::SecondVariation& variation, int count) {
+  for (const auto& solver : solvers_)
+    if (solver && solver->fits(variation)) return solver->solve(variation, count);
+  auto& replaced = solvers_[next_];
+  next_ = (next_ + 1) % solvers_.size();
+  replaced = std::make_unique<PatternSpectrum>();
+  return replaced->solve(variation, count);
 }
 
 }  // namespace windlass::stability
