@@ -117,7 +117,7 @@ double integrate_piece(RodFlow& flow, const ArcRecord& arc, Eigen::Index i, bool
 
 void integrate(const ArcRecord& arc, const Stiffness& law, bool has_cylinder, const Scales& scales,
                Collected& found) {
-  RodFlow flow(law, arc.kind);
+  RodFlow flow(law, arc.kind, scales.tolerance);
   double contact_force = 0.0;
   check_sample(arc, sample(arc, 0), arc.p[0], law, scales, found);
   for (Eigen::Index i = 0; i + 1 < arc.s.size(); ++i) {

@@ -38,17 +38,23 @@ class Smallest {
   bool any_ = false;
 };
 
+/// The bounds in the checks are for the usual standard; a looser or stricter one scales them all.
 class CheckList {
  public:
+  explicit CheckList(const Standard& standard) : scale_(standard.accept / Standard{}.accept) {}
+
   void at_most(std::string name, double value, double bound, std::string meaning) {
-    certificate_.checks.push_back({std::move(name), value, bound, Sense::at_most, std::move(meaning)});
+    certificate_.checks.push_back(
+        {std::move(name), value, scale_ * bound, Sense::at_most, std::move(meaning)});
   }
   void at_least(std::string name, double value, double bound, std::string meaning) {
-    certificate_.checks.push_back({std::move(name), value, bound, Sense::at_least, std::move(meaning)});
+    certificate_.checks.push_back(
+        {std::move(name), value, scale_ * bound, Sense::at_least, std::move(meaning)});
   }
   Certificate take() { return std::move(certificate_); }
 
  private:
+  double scale_;
   Certificate certificate_;
 };
 
@@ -56,6 +62,7 @@ class CheckList {
 struct Scales {
   double force = 1.0;   ///< max(1, T), or max(1, end force) of a strut
   double moment = 1.0;  ///< √force: moments and curvatures of a rod under T grow like √T
+  double tolerance = Standard{}.tolerance;  ///< of the reference integration
 };
 
 }  // namespace windlass::verify

@@ -8,8 +8,7 @@
 /// The groups of checks that verify() runs, each on one aspect of a solution.
 namespace windlass::verify {
 
-inline constexpr double tight =
-    1e-9;  ///< bound on mismatch, drift, gap and force that a stored point must keep
+inline constexpr double tight = Standard{}.accept;
 
 Section sample(const equilibrium::ArcRecord& arc, Eigen::Index i);
 Section first_section(const equilibrium::ArcRecord& arc);

@@ -113,7 +113,18 @@ void check_ends(const Solution& solution, const scene::Scene& scene, const Scale
   }
 }
 
-void check_totals(const Solution& solution, const scene::Scene&, const Scales& scales, CheckList& list) {
+void check_totals(const Solution& solution, const scene::Scene& scene, const Scales& scales,
+                  CheckList& list) {
+  if (scene.rod.infinite()) {
+    const auto finite = std::count_if(solution.joints.begin(), solution.joints.end(),
+                                      [](const auto& joint) { return joint.kind == JointKind::end; });
+    list.at_most("rod_length", static_cast<double>(finite), 0.0, "ends of an infinite rod that are not");
+  } else {
+    const double length =
+        solution.arcs.back().s[solution.arcs.back().s.size() - 1] - solution.arcs.front().s[0];
+    list.at_most("rod_length", std::abs(length / scene.rod.length - 1.0), tight,
+                 "length of the stored rod against the scene's, relative");
+  }
   if (!solution.has_cylinder) {
     const Section end = last_section(solution.arcs.back());
     list.at_most("end_force", std::abs(solution.end_force + end.n.x()) / scales.force, tight,
@@ -124,6 +135,10 @@ void check_totals(const Solution& solution, const scene::Scene&, const Scales& s
                  "reported shortening against the distance of the ends along e_x");
     return;
   }
+  list.at_most("load",
+               std::max(std::abs(solution.T - scene.load.tension) / scales.force,
+                        std::abs(solution.phi - scene.load.angle)),
+               tight, "stored T and phi against those of the scene, T / max(1, T)");
   double sum = 0.0, first = 0.0, last = 0.0;
   bool any = false;
   for (const ArcRecord& arc : solution.arcs) sum += arc.force;

@@ -57,8 +57,6 @@ double surface_pressure(const Section& section, double bending_stiffness) {
 
 namespace {
 
-constexpr double relative_tolerance = 1e-12;
-constexpr double absolute_tolerance = 1e-13;
 constexpr int free_size = 10;  // r, q, m; n is a constant of the arc
 constexpr int line_size = 14;  // r, q, m, n, ∫p
 
@@ -130,7 +128,7 @@ void RodFlow::Memory::rates(const double* y, double* rate) const {
   rate[13] = p;
 }
 
-RodFlow::RodFlow(const Stiffness& stiffness, equilibrium::ArcKind kind)
+RodFlow::RodFlow(const Stiffness& stiffness, equilibrium::ArcKind kind, double tolerance)
     : memory_(std::make_unique<Memory>(stiffness, kind)) {
   Memory& memory = *memory_;
   check(SUNContext_Create(nullptr, &memory.context), "context");
@@ -141,7 +139,7 @@ RodFlow::RodFlow(const Stiffness& stiffness, equilibrium::ArcKind kind)
   memory.cvode = CVodeCreate(CV_ADAMS, memory.context);
   if (memory.cvode == nullptr) throw std::runtime_error("CVODE: no memory for the integrator");
   check(CVodeInit(memory.cvode, &Memory::right_hand_side, 0.0, memory.state), "initialisation");
-  check(CVodeSStolerances(memory.cvode, relative_tolerance, absolute_tolerance), "tolerances");
+  check(CVodeSStolerances(memory.cvode, tolerance, 0.1 * tolerance), "tolerances");
   check(CVodeSetUserData(memory.cvode, memory_.get()), "user data");
   check(CVodeSetMaxNumSteps(memory.cvode, 100000), "step limit");
   check(CVodeSetErrFile(memory.cvode, nullptr), "silence");

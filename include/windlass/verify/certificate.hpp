@@ -31,19 +31,27 @@ struct Certificate {
   const Check* worst() const;
 };
 
+/// What is asked of a stored point.
+struct Standard {
+  double tolerance = 1e-12;  ///< relative, of the reference integration; a tenth of it is the absolute one
+  double accept = 1e-9;      ///< largest mismatch, drift, hole and negative gap or force that passes
+};
+
 /// Checks one equilibrium of the scene.
 ///
-/// Every arc is integrated again with CVODE (Adams, rtol 1e-12, atol 1e-13), from stored sample to stored sample:
+/// Every arc is integrated again with CVODE (Adams), from stored sample to stored sample:
 /// a tail amplifies errors by exp(√T L), so a single sweep would measure that growth and not the solution; where
 /// even one step between samples does, the distance to the nearest true trajectory is measured (Shadow). Checks
 /// the match at the next sample, the joints (position, frame, moment; the jump of n is the contact force along the
 /// outward normal), the end conditions and pulls, the invariants of PHYSICS (H, axial torque, n_z, twisting moment),
-/// unilateral contact (gaps and forces >= 0, tangency), and that R_tot is the sum of the contact forces.
+/// unilateral contact (gaps and forces >= 0, tangency), and that length, loads and R_tot are those of
+/// the scene and of the contact forces.
 /// Forces are divided by max(1, T), moments by max(1, √T), for struts with T the size of the end force.
 ///
-/// @throws nothing about the solution: a malformed one fails the check "structure"; std::runtime_error when CVODE
-///         itself cannot be set up
-Certificate verify(const equilibrium::Solution& solution, const scene::Scene& scene);
+/// @throws nothing about the solution: a malformed one fails the check "structure", one that CVODE cannot follow the
+///         check "integration"
+Certificate verify(const equilibrium::Solution& solution, const scene::Scene& scene,
+                   const Standard& standard = {});
 
 /// {passed, checks: [{name, value, bound, passed, meaning}]}; a value that is not finite is null.
 nlohmann::ordered_json to_json(const Certificate& certificate);

@@ -45,8 +45,9 @@ double surface_pressure(const Section& section, double bending_stiffness);
 /// Move-only owner of its CVODE memory.
 class RodFlow {
  public:
+  /// @param tolerance  relative; the absolute one is a tenth of it
   /// @throws std::runtime_error when CVODE cannot be set up
-  RodFlow(const Stiffness& stiffness, equilibrium::ArcKind kind);
+  RodFlow(const Stiffness& stiffness, equilibrium::ArcKind kind, double tolerance = 1e-12);
   RodFlow(RodFlow&&) noexcept;
   RodFlow& operator=(RodFlow&&) noexcept;
   ~RodFlow();

@@ -66,7 +66,9 @@ BOOST_AUTO_TEST_CASE(a_line_contact_with_samples_at_its_ends_only_passes) {
 BOOST_AUTO_TEST_CASE(endless_helix_satisfies_the_surface_equations) {
   for (const double psi : {0.0, 0.3, 0.9, -0.5}) {
     const auto solution = test::endless_helix(psi);
-    const Certificate certificate = verify::verify(solution, capstan_scene(solution.T, solution.phi));
+    auto scene = capstan_scene(solution.T, solution.phi);
+    scene.rod.length = 6.0;
+    const Certificate certificate = verify::verify(solution, scene);
     // the helix is cut, not held: its ends carry neither the pulls nor vanishing moments
     BOOST_TEST(failed(certificate) == "end_pull end_moment", verify::to_text(certificate));
   }
@@ -108,10 +110,30 @@ BOOST_AUTO_TEST_CASE(each_kind_of_damage_fails_its_own_check) {
   BOOST_TEST(damaged([](auto& x) { x.converged = false; }) == "structure");
 }
 
+BOOST_AUTO_TEST_CASE(a_rod_of_another_scene_fails) {
+  auto scene = capstan_scene(1.0, two_pi);
+  scene.rod.length = 30.0;
+  BOOST_TEST(failed(verify::verify(planar_capstan(1.0, two_pi), scene)) == "rod_length");
+  BOOST_TEST(failed(verify::verify(planar_capstan(1.0, two_pi), capstan_scene(1.1, two_pi))) == "load");
+  BOOST_TEST(failed(verify::verify(planar_capstan(1.0, two_pi), capstan_scene(1.0, 6.0))) == "load");
+}
+
+BOOST_AUTO_TEST_CASE(the_standard_decides_what_passes) {
+  auto solution = planar_capstan(1.0, two_pi);
+  const auto scene = capstan_scene(1.0, two_pi);
+  solution.phi_star += 1e-7;
+  BOOST_TEST(failed(verify::verify(solution, scene)) == "contact_angle");
+  BOOST_TEST(verify::verify(solution, scene, {1e-12, 1e-6}).passed());
+  // A coarse reference integration misses the stored points by more than the usual bound.
+  BOOST_TEST(!verify::verify(planar_capstan(1.0, two_pi), scene, {1e-5, 1e-9}).passed());
+  BOOST_TEST(verify::verify(planar_capstan(1.0, two_pi), scene, {1e-5, 1e-2}).passed());
+}
+
 BOOST_AUTO_TEST_CASE(a_rod_through_the_cylinder_fails_by_its_depth) {
   // a moment-free straight rod pulled at both ends, at a distance 0.6 of the axis: 0.4 deep, passing only the mechanics
   auto scene = capstan_scene(1.0, 1e-12);
   scene.ends.kind = scene::EndKind::moment_free;
+  scene.rod.length = 5.6;
   test::Solution solution;
   solution.T = 1.0, solution.phi = 0.0, solution.converged = true;
   auto arc = test::empty_arc(test::ArcKind::free, "gap", 5);
