@@ -12,6 +12,11 @@ StepLength::StepLength(const Options& options)
       target_contraction_(options.target_contraction),
       target_newton_(options.target_newton) {}
 
+StepLength::StepLength(const Options& options, double current, bool after_rejection) : StepLength(options) {
+  step_ = current;
+  after_rejection_ = after_rejection;
+}
+
 void StepLength::accepted(int iterations, double contraction) {
   double factor = std::exp2(0.5 * (target_newton_ - iterations));
   if (contraction > 0.0) factor = std::min(factor, std::sqrt(target_contraction_ / contraction));

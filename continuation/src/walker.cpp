@@ -1,6 +1,7 @@
 #include "continuation/walker.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -25,79 +26,99 @@ const char* name(PointType type) {
   return "?";
 }
 
-Walker::Walker(std::shared_ptr<Problem> problem, Vector x, Vector p, const Options& options)
-    : problem_(std::move(problem)),
-      x_(std::move(x)),
-      p_(std::move(p)),
-      options_(options),
-      step_length_(options) {
-  options_.validate();
-  if (!problem_) throw std::invalid_argument("continuation: no problem");
-  if (options_.parameter >= p_.size()) {
-    throw std::invalid_argument("continuation: parameter " + std::to_string(options_.parameter) + " of " +
-                                std::to_string(p_.size()) + " parameters does not exist");
-  }
+namespace {
+
+WalkState at_start(std::shared_ptr<Problem> problem, Vector x, Vector p) {
+  WalkState state;
+  state.problem = std::move(problem);
+  state.x = std::move(x);
+  state.p = std::move(p);
+  return state;
 }
+
+}  // namespace
+
+Walker::Walker(WalkState state, const Options& options)
+    : state_(std::move(state)), options_(options), step_length_(options) {
+  options_.validate();
+  if (!state_.problem) throw std::invalid_argument("continuation: no problem");
+  if (options_.parameter >= state_.p.size()) {
+    throw std::invalid_argument("continuation: parameter " + std::to_string(options_.parameter) + " of " +
+                                std::to_string(state_.p.size()) + " parameters does not exist");
+  }
+  if (state_.started) step_length_ = StepLength(options, state_.step, state_.after_rejection);
+}
+
+Walker::Walker(std::shared_ptr<Problem> problem, Vector x, Vector p, const Options& options)
+    : Walker(at_start(std::move(problem), std::move(x), std::move(p)), options) {}
 
 Walker::Walker(std::shared_ptr<Problem> problem, Vector x, Vector p, Tangent tangent, const Options& options)
     : Walker(std::move(problem), std::move(x), std::move(p), options) {
-  if (tangent.x.size() != problem_->size()) {
+  if (tangent.x.size() != state_.problem->size()) {
     throw std::invalid_argument("continuation: the tangent has " + std::to_string(tangent.x.size()) +
-                                " entries, the problem " + std::to_string(problem_->size()));
+                                " entries, the problem " + std::to_string(state_.problem->size()));
   }
-  normalise(*problem_, tangent, options_.parameter_scale);
-  tangent_ = std::move(tangent);
-  has_tangent_ = true;
+  normalise(*state_.problem, tangent, options_.parameter_scale);
+  state_.tangent = std::move(tangent);
+  state_.has_tangent = true;
+}
+
+WalkState Walker::state() const {
+  assert(at_rest());
+  WalkState state = state_;
+  state.step = step_length_.current();
+  state.after_rejection = step_length_.after_rejection();
+  return state;
 }
 
 void Walker::stop(const std::string& reason) {
   queue_.clear();
   pending_end_ = {};
-  end_ = End{End::Kind::stopped, reason};
+  state_.end = End{End::Kind::stopped, reason};
 }
 
 std::optional<Point> Walker::step() {
-  if (queue_.empty() && !end_ && !pending_end_) {
-    if (!started_) {
+  if (queue_.empty() && !state_.end && !pending_end_) {
+    if (!state_.started) {
       start();
     } else {
       advance();
     }
   }
   if (queue_.empty()) {
-    if (pending_end_) end_ = std::exchange(pending_end_, {});
+    if (pending_end_) state_.end = std::exchange(pending_end_, {});
     return std::nullopt;
   }
   Point point = std::move(queue_.front());
   queue_.pop_front();
-  if (queue_.empty() && pending_end_) end_ = std::exchange(pending_end_, {});
+  if (queue_.empty() && pending_end_) state_.end = std::exchange(pending_end_, {});
   return point;
 }
 
 void Walker::start() {
-  started_ = true;
+  state_.started = true;
   try {
-    if (!has_tangent_) {
+    if (!state_.has_tangent) {
       Borders fixed;
       fixed.parameter = options_.parameter;
       fixed.scale = options_.parameter_scale;
-      fixed.psi = Matrix(problem_->size(), 0);
-      fixed.c = Matrix::Zero(problem_->size(), 1);
+      fixed.psi = Matrix(state_.problem->size(), 0);
+      fixed.c = Matrix::Zero(state_.problem->size(), 1);
       fixed.d = Matrix::Ones(1, 1);
       fixed.g = Vector::Zero(1);
-      Iterate it{x_, Vector::Zero(problem_->size()), p_, Vector::Zero(1)};
+      Iterate it{state_.x, Vector::Zero(state_.problem->size()), state_.p, Vector::Zero(1)};
       Options patient = options_;  // a cold start deserves more corrections than a step
       patient.max_newton = std::max(options_.max_newton, 20);
-      const CorrectorReport report = correct(*problem_, fixed, it, patient);
+      const CorrectorReport report = correct(*state_.problem, fixed, it, patient);
       if (!report.converged) return lose("no solution at the start: " + report.failure);
-      x_ = it.x;
-      tangent_ = first_tangent(*problem_, x_, p_, options_, options_.direction);
+      state_.x = it.x;
+      state_.tangent = first_tangent(*state_.problem, state_.x, state_.p, options_, options_.direction);
     }
-    Segment segment(problem_, options_, x_, p_, tangent_);
+    Segment segment(state_.problem, options_, state_.x, state_.p, state_.tangent);
     segment.base().complete = false;
     Sample* sample = segment.at(0.0, true);
     if (!sample) return lose("no solution at the start: " + segment.failure());
-    if (!has_tangent_) parameter(sample->it.p) = parameter(p_);
+    if (!state_.has_tangent) parameter(sample->it.p) = parameter(state_.p);
     segment.add_events(*sample);
     settle(segment, *sample);
   } catch (const std::domain_error& error) {
@@ -105,57 +126,58 @@ void Walker::start() {
   } catch (const std::runtime_error& error) {
     return lose(std::string("no solution at the start: ") + error.what());
   }
-  points_ = 1;
-  previous_tangent_ = tangent_;
+  state_.points = 1;
+  state_.previous_tangent = state_.tangent;
   remember_start();
   Point point;
-  point.problem = problem_;
-  point.x = x_;
-  point.p = p_;
-  point.tangent = tangent_;
+  point.problem = state_.problem;
+  point.x = state_.x;
+  point.p = state_.p;
+  point.tangent = state_.tangent;
   point.type = PointType::start;
-  point.index = point.index_after = index_;
+  point.index = point.index_after = state_.index;
   queue_.push_back(std::move(point));
 }
 
 void Walker::remember_start() {
-  start_x_ = x_;
-  mesh_changed_ = false;
-  start_fingerprint_ = problem_->fingerprint(x_, p_);
-  start_parameter_ = parameter(p_);
-  start_slope_ = tangent_.p;
+  state_.start_x = state_.x;
+  state_.mesh_changed = false;
+  state_.start_fingerprint = state_.problem->fingerprint(state_.x, state_.p);
+  state_.start_parameter = parameter(state_.p);
+  state_.start_slope = state_.tangent.p;
 }
 
 // Makes a completed sample with events the walker's state.
 void Walker::settle(Segment& segment, Sample& sample) {
-  problem_ = segment.problem();
-  x_ = sample.it.x;
-  p_ = sample.it.p;
-  previous_tangent_ = tangent_;
-  tangent_ = sample.tangent;
-  index_ = sample.index;
-  determinant_ = sample.determinant;
-  previous_events_ = std::exchange(events_, sample.events);
-  path_length_ += sample.s;
-  last_ds_ = sample.s;
-  for (const EventFunction& event : events_) {
-    if (std::abs(event.value) > options_.event_zero) signs_[event.name] = event.value > 0.0 ? 1 : -1;
+  state_.problem = segment.problem();
+  state_.x = sample.it.x;
+  state_.p = sample.it.p;
+  state_.previous_tangent = state_.tangent;
+  state_.tangent = sample.tangent;
+  state_.index = sample.index;
+  state_.determinant = sample.determinant;
+  state_.previous_events = std::exchange(state_.events, sample.events);
+  state_.path_length += sample.s;
+  state_.last_ds = sample.s;
+  for (const EventFunction& event : state_.events) {
+    if (std::abs(event.value) > options_.event_zero) state_.signs[event.name] = event.value > 0.0 ? 1 : -1;
   }
 }
 
 void Walker::advance() {
-  if (points_ >= options_.max_points) {
-    end_ = End{End::Kind::max_points, "max_points = " + std::to_string(options_.max_points) + " reached"};
+  if (state_.points >= options_.max_points) {
+    state_.end =
+        End{End::Kind::max_points, "max_points = " + std::to_string(options_.max_points) + " reached"};
     return;
   }
   for (const double bound : {options_.lower, options_.upper}) {
-    if (parameter(p_) == bound && tangent_.p * (bound == options_.upper ? 1.0 : -1.0) > 0.0) {
-      end_ = End{End::Kind::bound, "the parameter leaves its bounds"};
+    if (parameter(state_.p) == bound && state_.tangent.p * (bound == options_.upper ? 1.0 : -1.0) > 0.0) {
+      state_.end = End{End::Kind::bound, "the parameter leaves its bounds"};
       return;
     }
   }
   adapt();
-  if (end_) return;
+  if (state_.end) return;
   for (;;) {
     std::string failure;
     if (advance_once(failure)) return;
@@ -163,7 +185,7 @@ void Walker::advance() {
       if (event_at_edge()) return;
       std::ostringstream message;
       message << "Newton failed at step_min (step " << step_length_.current() << ", parameter "
-              << parameter(p_) << "): " << failure;
+              << parameter(state_.p) << "): " << failure;
       return lose(message.str());
     }
   }

@@ -25,48 +25,49 @@ bool crosses(const Segment& segment, const Sample& lo, const Sample& hi, double 
 // function that vanishes within a few smallest steps, going on as between the last two points, is taken to
 // have its zero here.
 bool Walker::event_at_edge() {
-  if (!options_.detect_events || !(last_ds_ > 0.0)) return false;
+  if (!options_.detect_events || !(state_.last_ds > 0.0)) return false;
   const double reach = 100.0 * options_.step_min;
-  for (std::size_t i = 0; i < events_.size(); ++i) {
-    const EventFunction& event = events_[i];
-    const auto before = std::find_if(previous_events_.begin(), previous_events_.end(),
+  for (std::size_t i = 0; i < state_.events.size(); ++i) {
+    const EventFunction& event = state_.events[i];
+    const auto before = std::find_if(state_.previous_events.begin(), state_.previous_events.end(),
                                      [&](const EventFunction& other) { return other.name == event.name; });
-    if (before == previous_events_.end() || event.value < 0.0) continue;
-    const double rate = (event.value - before->value) / last_ds_;
+    if (before == state_.previous_events.end() || event.value < 0.0) continue;
+    const double rate = (event.value - before->value) / state_.last_ds;
     if (event.value + rate * reach >= 0.0) continue;
-    Segment segment(problem_, options_, x_, p_, tangent_);
+    Segment segment(state_.problem, options_, state_.x, state_.p, state_.tangent);
     Located located;
     located.type = PointType::event;
     located.event = event.name;
     located.which = i;
     located.sample = segment.base();
-    located.index = index_;
+    located.index = state_.index;
     located.hi = -event.value / rate;
     located.precision = located.hi;
     located.note = "at the edge of the domain of F, extrapolated";
     Point point = special(segment, located);
-    ++events_in_place_;
-    ++points_;
-    pass(std::move(point), i, event.name, tangent_.p < 0.0 ? -1 : 1);
+    ++state_.events_in_place;
+    ++state_.points;
+    pass(std::move(point), i, event.name, state_.tangent.p < 0.0 ? -1 : 1);
     return true;
   }
   return false;
 }
 
 bool Walker::advance_once(std::string& failure) {
-  Segment segment(problem_, options_, x_, p_, tangent_);
+  Segment segment(state_.problem, options_, state_.x, state_.p, state_.tangent);
   segment.base().complete = true;
-  segment.base().index = index_;
-  segment.base().determinant = determinant_;
-  segment.base().events = events_;
+  segment.base().index = state_.index;
+  segment.base().determinant = state_.determinant;
+  segment.base().events = state_.events;
   const double ds = step_length_.current();
   Sample* end = segment.at(ds, true);
   if (!end) return failure = segment.failure(), false;
-  const double cosine = inner(*problem_, tangent_, end->tangent, options_.parameter_scale);
+  const double cosine = inner(*state_.problem, state_.tangent, end->tangent, options_.parameter_scale);
   if (cosine < std::cos(options_.max_angle)) return failure = "the tangent turns too much", false;
-  const double rise = segment.parameter(*end) - parameter(p_);
-  const double turn = tangent_.p * end->tangent.p;
-  if (turn > 0.0 && rise * tangent_.p < 0.0 && std::abs(rise) > 1e-9 * ds && 0.5 * ds >= options_.step_min)
+  const double rise = segment.parameter(*end) - parameter(state_.p);
+  const double turn = state_.tangent.p * end->tangent.p;
+  if (turn > 0.0 && rise * state_.tangent.p < 0.0 && std::abs(rise) > 1e-9 * ds &&
+      0.5 * ds >= options_.step_min)
     return failure = "two folds in one step", false;
 
   std::optional<Located> fold;
@@ -84,7 +85,7 @@ bool Walker::advance_once(std::string& failure) {
   }
   segment.add_events(*end);
   std::optional<Located> event;
-  if (options_.detect_events) event = locate_first_event(segment, *end, signs_);
+  if (options_.detect_events) event = locate_first_event(segment, *end, state_.signs);
   if (event) {
     if (!event->note.empty()) return failure = "event " + event->event + ": " + event->note, false;
     if (event->s > 0.0) {
@@ -114,32 +115,32 @@ bool Walker::advance_once(std::string& failure) {
 
   if (event) {
     Point point = special(segment, *event);
-    events_in_place_ = event->s > 1e-6 * options_.step_min + 1e-12 ? 0 : events_in_place_ + 1;
+    state_.events_in_place = event->s > 1e-6 * options_.step_min + 1e-12 ? 0 : state_.events_in_place + 1;
     if (event->s > 0.0) settle(segment, *end);
-    ++points_;
-    pass(std::move(point), event->which, event->event, tangent_.p < 0.0 ? -1 : 1);
+    ++state_.points;
+    pass(std::move(point), event->which, event->event, state_.tangent.p < 0.0 ? -1 : 1);
     return true;
   }
   Point point;
   point.ds = end->s;
   point.newton_iterations = end->report.iterations;
   settle(segment, *end);
-  ++points_;
-  events_in_place_ = 0;
-  point.problem = problem_;
-  point.x = x_;
-  point.p = p_;
-  point.tangent = tangent_;
-  point.index = point.index_after = index_;
-  point.path_length = path_length_;
+  ++state_.points;
+  state_.events_in_place = 0;
+  point.problem = state_.problem;
+  point.x = state_.x;
+  point.p = state_.p;
+  point.tangent = state_.tangent;
+  point.index = point.index_after = state_.index;
+  point.path_length = state_.path_length;
   if (reason) {
     point.type = PointType::end;
     pending_end_ = reason;
   } else {
     step_length_.accepted(report.iterations, report.contraction);
-    adapt_pending_ = true;
+    state_.adapt_pending = true;
     // A start at a fold is never crossed transversely in p: its neighbour stands in for it.
-    if (points_ == 2 && std::abs(start_slope_) < 0.1) remember_start();
+    if (state_.points == 2 && std::abs(state_.start_slope) < 0.1) remember_start();
   }
   queue_.push_back(std::move(point));
   return true;
@@ -180,23 +181,25 @@ bool Walker::limit(Segment& segment, Sample*& end, Located* fold, End& reason) {
 
 // The sample at the start's parameter if it is the start, that is if the branch is a closed curve.
 Sample* Walker::close(Segment& segment, Sample& end, Located* fold) {
-  if (points_ < 4) return nullptr;
+  if (state_.points < 4) return nullptr;
   Sample& middle = fold ? fold->sample : end;
-  const bool first_half = tangent_.p * start_slope_ > 0.0;
-  if (!first_half && (!fold || end.tangent.p * start_slope_ <= 0.0)) return nullptr;
+  const bool first_half = state_.tangent.p * state_.start_slope > 0.0;
+  if (!first_half && (!fold || end.tangent.p * state_.start_slope <= 0.0)) return nullptr;
   Sample& lo = first_half ? segment.base() : middle;
   Sample& hi = first_half ? middle : end;
-  if (!crosses(segment, lo, hi, start_parameter_)) return nullptr;
-  const bool comparable = !mesh_changed_;
-  if (comparable && rms(x_ - start_x_) > 3.0 * rms(end.it.x - x_) + 1e-3) return nullptr;
-  Sample* sample = segment.at_parameter(start_parameter_, lo, hi, true);
+  if (!crosses(segment, lo, hi, state_.start_parameter)) return nullptr;
+  const bool comparable = !state_.mesh_changed;
+  if (comparable && rms(state_.x - state_.start_x) > 3.0 * rms(end.it.x - state_.x) + 1e-3) return nullptr;
+  Sample* sample = segment.at_parameter(state_.start_parameter, lo, hi, true);
   if (!sample || sample->s < 0.0 || sample->s > end.s) return nullptr;
-  if (comparable && rms(sample->it.x - start_x_) <= 1e-6 * std::max(1.0, rms(start_x_))) return sample;
+  if (comparable && rms(sample->it.x - state_.start_x) <= 1e-6 * std::max(1.0, rms(state_.start_x)))
+    return sample;
   if (comparable) return nullptr;
-  const Vector now = problem_->fingerprint(sample->it.x, sample->it.p);
+  const Vector now = state_.problem->fingerprint(sample->it.x, sample->it.p);
   // Another mesh: equal only within its error.
-  const bool same = now.size() == start_fingerprint_.size() &&
-                    rms(now - start_fingerprint_) <= 1e-5 * std::max(1.0, rms(start_fingerprint_));
+  const bool same =
+      now.size() == state_.start_fingerprint.size() &&
+      rms(now - state_.start_fingerprint) <= 1e-5 * std::max(1.0, rms(state_.start_fingerprint));
   return same ? sample : nullptr;
 }
 
@@ -205,9 +208,9 @@ Point Walker::special(Segment& segment, const Located& located) {
   point.problem = segment.problem()->clone();
   point.x = located.sample.it.x;
   point.p = located.sample.it.p;
-  point.tangent = located.sample.tangent.x.size() > 0 ? located.sample.tangent : tangent_;
+  point.tangent = located.sample.tangent.x.size() > 0 ? located.sample.tangent : state_.tangent;
   point.type = located.type;
-  point.path_length = path_length_ + located.s;
+  point.path_length = state_.path_length + located.s;
   point.ds = located.s;
   point.newton_iterations = located.sample.report.iterations;
   point.index = located.index;
@@ -215,20 +218,10 @@ Point Walker::special(Segment& segment, const Located& located) {
   point.event = located.event;
   point.note = located.note;
   point.precision = located.precision;
-  point.bracket_lo = path_length_ + located.lo;
-  point.bracket_hi = path_length_ + located.hi;
+  point.bracket_lo = state_.path_length + located.lo;
+  point.bracket_hi = state_.path_length + located.hi;
   point.multiplicity = located.multiplicity;
   if (located.branch_point) point.branch_point = std::make_shared<const BranchPoint>(*located.branch_point);
-  switch (located.type) {
-    case PointType::fold:
-      point.label = "F" + std::to_string(++folds_);
-      break;
-    case PointType::branch_point:
-      point.label = "B" + std::to_string(++branch_points_);
-      break;
-    default:
-      point.label = "E" + std::to_string(++event_points_);
-  }
   return point;
 }
 

@@ -25,23 +25,24 @@ Borders fixed_parameter(const Problem& problem, const Options& options) {
 }  // namespace
 
 void Walker::adapt() {
-  if (!std::exchange(adapt_pending_, false) || !options_.adapt) return;
+  if (!std::exchange(state_.adapt_pending, false) || !options_.adapt) return;
   // The new tangent is oriented by its parameter component, which says nothing next to a fold.
-  if (std::abs(tangent_.p) < 2.0 * std::abs(tangent_.p - previous_tangent_.p)) {
-    adapt_pending_ = true;
+  if (std::abs(state_.tangent.p) < 2.0 * std::abs(state_.tangent.p - state_.previous_tangent.p)) {
+    state_.adapt_pending = true;
     return;
   }
   try {
-    const std::optional<Vector> adapted = problem_->adapt(x_, p_);
+    const std::optional<Vector> adapted = state_.problem->adapt(state_.x, state_.p);
     if (!adapted) return;
-    const Tangent tangent = first_tangent(*problem_, *adapted, p_, options_, tangent_.p < 0.0 ? -1 : 1);
-    Segment segment(problem_, options_, *adapted, p_, tangent);
+    const Tangent tangent =
+        first_tangent(*state_.problem, *adapted, state_.p, options_, state_.tangent.p < 0.0 ? -1 : 1);
+    Segment segment(state_.problem, options_, *adapted, state_.p, tangent);
     Sample* sample = segment.at(0.0, true);
     if (!sample) return lose("after adapting the discretisation: " + segment.failure());
     segment.add_events(*sample);
     settle(segment, *sample);
-    mesh_changed_ = true;
-    previous_tangent_ = tangent_;
+    state_.mesh_changed = true;
+    state_.previous_tangent = state_.tangent;
   } catch (const std::domain_error& error) {
     lose(std::string("adapting the discretisation: ") + error.what());
   } catch (const std::runtime_error& error) {
@@ -54,12 +55,12 @@ void Walker::pass(Point event, std::size_t which, const std::string& name, int d
     queue_.push_back(std::move(event));
     pending_end_ = End{kind, reason};
   };
-  if (events_in_place_ > 5)
+  if (state_.events_in_place > 5)
     return finish(End::Kind::lost, "event " + name + ": events repeat without progress");
   std::optional<Transition> transition;
   std::string failure;
   try {
-    transition = problem_->transition(which, x_, p_);
+    transition = state_.problem->transition(which, state_.x, state_.p);
   } catch (const std::domain_error& error) {
     failure = std::string(": ") + error.what();
   } catch (const std::runtime_error& error) {
@@ -71,10 +72,10 @@ void Walker::pass(Point event, std::size_t which, const std::string& name, int d
   if (!transition->problem) return finish(End::Kind::event, "event " + name + " ends the branch");
   if (!enter(*transition, direction, name, failure))
     return finish(End::Kind::lost, "event " + name + ": " + failure);
-  event.index_after = index_;
-  event.next_problem = problem_->clone();
-  event.next_x = x_;
-  event.next_p = p_;
+  event.index_after = state_.index;
+  event.next_problem = state_.problem->clone();
+  event.next_x = state_.x;
+  event.next_p = state_.p;
   queue_.push_back(std::move(event));
 }
 
@@ -83,7 +84,7 @@ bool Walker::enter(const Transition& transition, int direction, const std::strin
                    std::string& failure) {
   const std::shared_ptr<Problem>& problem = transition.problem;
   const double step = step_length_.current() * options_.parameter_scale;
-  const Vector p = p_;
+  const Vector p = state_.p;
   std::vector<double> offsets{0.0};
   if (transition.p.size() == p.size())
     offsets.insert(offsets.begin(), parameter(transition.p) - p[options_.parameter]);
@@ -120,11 +121,11 @@ bool Walker::enter(const Transition& transition, int direction, const std::strin
         }
         segment.add_events(*sample);
         // Signs are read off the first point beyond: here the function that changed is zero up to roundoff.
-        signs_.clear();
+        state_.signs.clear();
         settle(segment, *sample);
-        signs_.clear();
-        mesh_changed_ = true;
-        previous_tangent_ = tangent_;
+        state_.signs.clear();
+        state_.mesh_changed = true;
+        state_.previous_tangent = state_.tangent;
         // A short first step separates the zero just passed from the next event.
         step_length_.reset(0.1 * step_length_.current());
         return true;
@@ -142,9 +143,10 @@ bool Walker::valid_direction(const std::shared_ptr<Problem>& problem, const Vect
                              const Tangent& tangent, const std::string& passed) {
   // Of mirror images that vanish together one is passed now, the others, negative from here on, in the next
   // steps.
-  const auto simultaneous = std::count_if(events_.begin(), events_.end(), [&](const EventFunction& event) {
-    return event.name != passed && std::abs(event.value) <= 1e4 * options_.event_zero;
-  });
+  const auto simultaneous =
+      std::count_if(state_.events.begin(), state_.events.end(), [&](const EventFunction& event) {
+        return event.name != passed && std::abs(event.value) <= 1e4 * options_.event_zero;
+      });
   // A short step may still be within roundoff of the event, a long one beyond the next.
   for (const double part : {0.1, 0.01, 1e-3, 1e-4, 1e-5}) {
     Segment segment(problem, options_, x, p, tangent);
@@ -154,10 +156,10 @@ bool Walker::valid_direction(const std::shared_ptr<Problem>& problem, const Vect
     const auto negative =
         std::count_if(sample->events.begin(), sample->events.end(), [&](const EventFunction& event) {
           if (event.value >= -options_.event_zero) return false;
-          const auto before = std::find_if(events_.begin(), events_.end(),
+          const auto before = std::find_if(state_.events.begin(), state_.events.end(),
                                            [&](const EventFunction& old) { return old.name == event.name; });
           // Negative already before the event, so not the event's doing.
-          return before == events_.end() || before->value >= -1e3 * options_.event_zero;
+          return before == state_.events.end() || before->value >= -1e3 * options_.event_zero;
         });
     const bool valid = negative <= simultaneous;
     if (valid) return true;

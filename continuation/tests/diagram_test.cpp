@@ -109,8 +109,8 @@ BOOST_AUTO_TEST_SUITE(diagrams)
 
 BOOST_AUTO_TEST_CASE(pitchfork_diagram) {
   Recorder recorder;
-  const Diagram diagram =
-      trace_diagram(pitchfork(), vector({0.0}), vector({-0.5}), between(-1.0, 1.0), {true, 50, 3}, recorder);
+  const Diagram diagram = trace_diagram(pitchfork(), vector({0.0}), vector({-0.5}), between(-1.0, 1.0),
+                                        {true, true, 50, 3}, recorder);
   BOOST_TEST(diagram.branches.size() == 3u);  // right, left, one arm for both
   BOOST_TEST(diagram.branches[2].count == 2);
   BOOST_TEST(diagram.branches[2].origin == "B1");
@@ -134,7 +134,7 @@ BOOST_AUTO_TEST_CASE(loop_between_two_branch_points_is_walked_once) {
   BOOST_TEST(diagram.specials.size() == 2u);
   BOOST_REQUIRE_EQUAL(diagram.branches.size(), 2u);
   BOOST_TEST((diagram.branches[1].end.kind == End::Kind::joined));
-  BOOST_TEST(diagram.branches[1].end.reason == "joins branch 0 at B2");
+  BOOST_TEST(diagram.branches[1].end.reason == "joins branch 1 at B2");
   BOOST_TEST(diagram.lost.empty());
 }
 
@@ -158,15 +158,15 @@ BOOST_AUTO_TEST_CASE(secondary_branching_limits_and_stopping) {
   BOOST_TEST(diagram.lost.empty());
 
   Recorder shallow;
-  const Diagram limited =
-      trace_diagram(make(), vector({0.0, 0.0}), vector({-1.0}), between(-2.0, 1.0), {false, 50, 1}, shallow);
+  const Diagram limited = trace_diagram(make(), vector({0.0, 0.0}), vector({-1.0}), between(-2.0, 1.0),
+                                        {false, true, 50, 1}, shallow);
   BOOST_TEST(limited.branches.size() == 2u);
   BOOST_REQUIRE_EQUAL(limited.lost.size(), 1u);
   BOOST_TEST(limited.lost[0].find("max_depth") != std::string::npos);
 
   Recorder few;
   const Diagram narrow =
-      trace_diagram(make(), vector({0.0, 0.0}), vector({-1.0}), between(-2.0, 1.0), {false, 1, 3}, few);
+      trace_diagram(make(), vector({0.0, 0.0}), vector({-1.0}), between(-2.0, 1.0), {false, true, 1, 3}, few);
   BOOST_TEST(narrow.branches.size() == 1u);
   BOOST_TEST(narrow.lost.size() == 1u);
 

@@ -57,7 +57,6 @@ BOOST_AUTO_TEST_CASE(fold_is_located) {
   BOOST_TEST(std::abs(folds[0].p[0] - 1.0) < 1e-12);
   BOOST_TEST(std::abs(folds[0].x[0] - 0.3) < 1e-9);
   BOOST_TEST(folds[0].precision < 1e-10);
-  BOOST_TEST(folds[0].label == "F1");
   BOOST_TEST(std::abs(folds[0].index - folds[0].index_after) == 1);
   BOOST_TEST(of_type(points, PointType::branch_point).empty());
   BOOST_TEST(points.back().p[0] == -1.0);

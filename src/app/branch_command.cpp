@@ -13,6 +13,8 @@ void add_branch_command(CLI::App& command, CommonOptions& common, int& status,
                         int (*run)(const BranchRequest&)) {
   struct Words {
     std::string start, label;
+    bool resume = false, eigenvalues = true;
+    std::optional<double> save_every;
   };
   const auto words = std::make_shared<Words>();
   command.add_option("SCENE", words->start, "scene file (TOML), or a run folder to restart from")
@@ -20,8 +22,19 @@ void add_branch_command(CLI::App& command, CommonOptions& common, int& status,
       ->type_name("");
   command.add_option("LABEL", words->label, "with a run folder: the stored point, e.g. BP1")->type_name("");
   add_common_options(command, common);
+  CLI::Option* resume = command.add_flag("--resume", words->resume, "go on with the run in the folder --out");
+  command.get_option("--force")->excludes(resume);
+  command
+      .add_option("--save-every", words->save_every,
+                  "seconds between two savings of what --resume needs; 0: at every point (default 1, more "
+                  "where saving takes long)")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("SECONDS");
+  command.add_flag("!--no-eigenvalues", words->eigenvalues,
+                   "the lowest eigenvalue at special points only; every point keeps its index");
   command.callback([words, run, &common, &status] {
-    BranchRequest request{common, {}, std::nullopt, words->label};
+    BranchRequest request{common,           {}, std::nullopt, words->label, words->resume, words->eigenvalues,
+                          words->save_every};
     if (std::filesystem::is_directory(words->start)) {
       request.run = words->start;
       request.scene = scene_of_run(words->start, common);

@@ -29,8 +29,20 @@ bool special(const Point& point) {
 
 }  // namespace
 
-BranchRecorder::BranchRecorder(output::RunWriter& writer, bool spectra, bool quiet)
-    : writer_(writer), spectra_(spectra), progress_(quiet) {}
+BranchRecorder::BranchRecorder(output::RunWriter& writer, continuation::ProblemCodec codec, bool spectra,
+                               bool quiet)
+    : writer_(writer), codec_(std::move(codec)), spectra_(spectra), progress_(quiet) {
+  const output::Timings& before = writer.info().timings;
+  continuation_ = before.continuation, stability_ = before.stability, earlier_ = before.total;
+  lost_ = static_cast<int>(writer.info().lost_branches.size());
+  if (writer.rows().empty()) return;
+  for (const output::BranchRow& row : writer.rows()) labels_.insert(row.label);
+  points_ = static_cast<int>(writer.rows().size());
+  last_ = writer.rows().back();
+  in_branch_ = last_.point;
+  progress_.note(
+      fmt::format("goes on after branch {}, point {} ({} points)", last_.branch, last_.point, points_));
+}
 
 void BranchRecorder::on_branch_start(const Branch&) { in_branch_ = 0; }
 
@@ -63,6 +75,7 @@ void BranchRecorder::on_point(const Branch& branch, const Point& point) {
     // A branch that arrives at a known special point carries its label again; the first one keeps it.
     const std::string label = special(point) && labels_.insert(point.label).second ? point.label : "";
     last_ = output::make_row(solution, branch.id + 1, ++in_branch_, label, type_name(point.type), point.ds);
+    if (!writer_.info().extra_parameter.empty()) last_.parameter = point.p(0);
     writer_.add_point(last_, solution);
     ++points_;
     if (progress_.due())
@@ -81,6 +94,7 @@ void BranchRecorder::on_special_point(const Branch& branch, const Point& point) 
   entry.branch = branch.id + 1;
   entry.T = last_.T;
   entry.phi = last_.phi;
+  entry.parameter = last_.parameter;
   entry.precision = point.precision;
   entry.multiplicity = std::max(1, point.multiplicity);
   entry.before = point.before;
@@ -127,6 +141,19 @@ bool BranchRecorder::should_stop() {
   return stopped_;
 }
 
+void BranchRecorder::on_rest(const continuation::DiagramState& state) {
+  if (!stopped_ && !writer_.checkpoint_due()) return;
+  pause();
+  writer_.info().timings = timings();
+  writer_.checkpoint(continuation::encode(state, codec_));
+  resumed_ = Clock::now();
+}
+
+output::Timings BranchRecorder::timings() const {
+  const double now = std::chrono::duration<double>(Clock::now() - begin_).count();
+  return {points_, continuation_, stability_, earlier_ + now};
+}
+
 int BranchRecorder::finish(const std::vector<std::string>& lost, bool quiet, bool json) {
   pause();
   progress_.finish();
@@ -134,12 +161,8 @@ int BranchRecorder::finish(const std::vector<std::string>& lost, bool quiet, boo
   summary["points"] = points_;
   summary["special_points"] = writer_.special_points().size();
   summary["lost"] = lost;
-  const double total = std::chrono::duration<double>(Clock::now() - begin_).count();
   const bool incomplete = !lost.empty() || lost_ > 0;
-  writer_.finish(stopped_     ? "interrupted"
-                 : incomplete ? "incomplete"
-                              : "finished",
-                 {points_, continuation_, stability_, total}, summary);
+  writer_.finish(stopped_ ? "interrupted" : incomplete ? "incomplete" : "finished", timings(), summary);
   if (json) {
     nlohmann::ordered_json out = output::to_json(writer_.info());
     for (const auto& special : writer_.special_points())

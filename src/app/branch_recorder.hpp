@@ -1,7 +1,7 @@
 #pragma once
 
 #include <chrono>
-#include <continuation/diagram.hpp>
+#include <continuation/checkpoint.hpp>
 #include <set>
 
 #include "app/progress.hpp"
@@ -14,14 +14,17 @@ namespace windlass::app {
 /// time spent on spectra are told apart from time spent writing.
 class BranchRecorder final : public continuation::DiagramObserver {
  public:
-  /// @param spectra  eigenvalues from SLEPc at every point; special points get them always
-  BranchRecorder(output::RunWriter& writer, bool spectra, bool quiet);
+  /// Goes on with what the writer holds already.
+  /// @param codec    of the problems on the branches
+  /// @param spectra  the lowest eigenvalue at every point; special points get theirs, and its mode, always
+  BranchRecorder(output::RunWriter& writer, continuation::ProblemCodec codec, bool spectra, bool quiet);
 
   void on_branch_start(const continuation::Branch& branch) override;
   void on_point(const continuation::Branch& branch, const continuation::Point& point) override;
   void on_special_point(const continuation::Branch& branch, const continuation::Point& point) override;
   void on_branch_end(const continuation::Branch& branch) override;
   bool should_stop() override;
+  void on_rest(const continuation::DiagramState& state) override;
 
   /// Starts the clock of the computation; call it right before the walk.
   void start_clock() { resumed_ = Clock::now(); }
@@ -31,14 +34,17 @@ class BranchRecorder final : public continuation::DiagramObserver {
  private:
   using Clock = std::chrono::steady_clock;
   void pause() { continuation_ += std::chrono::duration<double>(Clock::now() - resumed_).count(); }
+  output::Timings timings() const;
   void add_eigenvalues(equilibrium::Solution& solution, const continuation::Point& point);
 
   output::RunWriter& writer_;
+  continuation::ProblemCodec codec_;
   bool spectra_;
   Progress progress_;
   stability::SpectrumSolver solver_;
   Clock::time_point begin_ = Clock::now(), resumed_ = Clock::now();
-  double continuation_ = 0.0, stability_ = 0.0;
+  double continuation_ = 0.0, stability_ = 0.0,
+         earlier_ = 0.0;  ///< earlier_: total of the run before it was resumed
   int points_ = 0, in_branch_ = 0, lost_ = 0;
   bool stopped_ = false;
   std::set<std::string> labels_;

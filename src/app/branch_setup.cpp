@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/stored_point.hpp"
 #include "windlass/equilibrium/record.hpp"
 #include "windlass/scene/error.hpp"
 #include "windlass/scene/keys.hpp"
@@ -52,46 +53,34 @@ continuation::Options options_of(const scene::Scene& scene, double from) {
 }  // namespace
 
 BranchSetup set_up_branch(const BranchRequest& request) {
-  scene::Scene scene = request.scene;
+  BranchSetup setup;
+  scene::Scene& scene = setup.scene = request.scene;
   if (!scene.continuation)
     throw InputError(scene.name + ": the scene has no [continuation] table (parameter, from, to)");
-  const std::string key = scene.continuation->parameter;
-  BranchSetup setup;
+  setup.key = scene.continuation->parameter;
   if (request.run) {
     const output::Run run = output::read_run(*request.run);
-    const equilibrium::Solution stored = run.points.get(request.label);
-    if (stored.has_cylinder) scene.load.tension = stored.T, scene.load.angle = stored.phi;
-    const std::vector<std::string> keys{key};
-    setup.start.problem = equilibrium::reopen(scene, stored.restart, keys);
-    setup.start.x = stored.restart.state;
-    setup.start.p = setup.start.problem->parameters();
+    setup.stored = run.points.get(request.label).restart;
+    scene = scene_of_point(scene, run, *run.points.find(request.label));
   } else {
-    if (scene.continuation->from != 0.0 || key == "load.angle")
-      scene::set_parameter(scene, key, scene.continuation->from);
+    if (scene.continuation->from != 0.0 || setup.key == "load.angle")
+      scene::set_parameter(scene, setup.key, scene.continuation->from);
     // The straight strut's thrust is undetermined; its buckled states end there.
     constexpr double least_shortening = 1e-5;
-    if (key == "ends.shortening" && scene.ends.shortening.value_or(0.0) < least_shortening)
+    if (setup.key == "ends.shortening" && scene.ends.shortening.value_or(0.0) < least_shortening)
       scene.ends.shortening = least_shortening;
-    setup.start = equilibrium::cold_start(scene, needs_space(scene),
-                                          scene.model.symmetry != scene::Symmetry::none, {key});
   }
-  setup.options = options_of(scene, setup.start.p(0));
+  setup.options = options_of(scene, scene::get_parameter(scene, setup.key));
   return setup;
 }
 
-output::RunWriter open_run(const BranchRequest& request, const std::string& command) {
-  if (request.common.resume)
-    throw InputError("--resume: not supported yet; restart from a stored point with `continue RUN LABEL`");
-  output::WriterOptions options;
-  options.force = request.common.force;
-  options.command = command;
-  options.version = WINDLASS_VERSION;
-  if (request.scene.continuation) {
-    const std::string& key = request.scene.continuation->parameter;
-    if (key != "load.tension" && key != "load.angle" && key != "ends.shortening")
-      options.extra_parameter = key;
-  }
-  return output::RunWriter::create(output_folder(request.common, request.scene), request.scene, options);
+equilibrium::Started first_state(const BranchSetup& setup) {
+  const std::vector<std::string> keys{setup.key};
+  if (!setup.stored)
+    return equilibrium::cold_start(setup.scene, needs_space(setup.scene),
+                                   setup.scene.model.symmetry != scene::Symmetry::none, keys);
+  const auto problem = equilibrium::reopen(setup.scene, *setup.stored, keys);
+  return {problem, setup.stored->state, problem->parameters(), 0};
 }
 
 }  // namespace windlass::app

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "windlass/scene/scene.hpp"
+#include "windlass/verify/certificate.hpp"
 
 namespace CLI {
 class App;
@@ -29,7 +30,6 @@ struct CommonOptions {
   std::vector<std::string> set;    ///< KEY=VALUE, in the order given
   std::filesystem::path out;       ///< --out; empty: default_folder()
   bool force = false;              ///< replace an existing run
-  bool resume = false;             ///< go on with an existing run
   bool json = false;               ///< summary as one JSON object on stdout, nothing else there
   bool quiet = false;              ///< no progress, no summary text
   std::vector<std::string> petsc;  ///< after `--`; already given to petsc::set_options
@@ -47,6 +47,9 @@ struct BranchRequest {
   scene::Scene scene;                        ///< of the run, with overrides, when it restarts
   std::optional<std::filesystem::path> run;  ///< restart from here
   std::string label;                         ///< the stored point to restart from
+  bool resume = false;                       ///< go on with the run in the output folder
+  bool eigenvalues = true;           ///< the lowest eigenvalue of every point, not of special ones only
+  std::optional<double> save_every;  ///< [s] between two checkpoints; empty: the writer's choice
 };
 
 struct LocusRequest {
@@ -64,8 +67,7 @@ struct RunRequest {
   std::filesystem::path run;
   std::string label;                                         ///< stability: one point; empty: all
   int eigenvalues = 6;                                       ///< stability: how many
-  double tolerance = 1e-12;                                  ///< verify: of the reference integration
-  double accept = 1e-6;                                      ///< verify: largest defect that passes
+  verify::Standard standard;                                 ///< verify: what is asked of a point
   std::vector<std::string> formats = {"png", "svg", "pdf"};  ///< plot
 };
 
@@ -86,7 +88,7 @@ AddCommand add_solve, add_continue, add_diagram, add_locus, add_stability, add_v
 
 // ---- shared by the command files -------------------------------------------------------------------------------
 
-/// Adds --set, --out, --force, --resume, --json, --quiet to a subcommand.
+/// Adds --set, --out, --force, --json, --quiet to a subcommand.
 void add_common_options(CLI::App& command, CommonOptions& common);
 
 /// `runs/SCENE-NAME` unless --out says otherwise.

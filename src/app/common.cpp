@@ -14,10 +14,7 @@ void add_common_options(CLI::App& command, CommonOptions& common) {
   command.add_option("--out", common.out, "folder for the results (default runs/SCENE-NAME)")
       ->type_name("DIR")
       ->group("Common options");
-  CLI::Option* force = command.add_flag("--force", common.force, "replace what is in that folder");
-  CLI::Option* resume = command.add_flag("--resume", common.resume, "go on with the run in that folder");
-  force->group("Common options")->excludes(resume);
-  resume->group("Common options");
+  command.add_flag("--force", common.force, "replace what is in that folder")->group("Common options");
   command.add_flag("--json", common.json, "print the summary as one JSON object on stdout")
       ->group("Common options");
   command.add_flag("--quiet", common.quiet, "no progress on stderr, no summary text")

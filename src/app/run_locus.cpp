@@ -6,6 +6,7 @@
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
+#include "app/stored_point.hpp"
 #include "windlass/equilibrium/record.hpp"
 #include "windlass/output/run_folder.hpp"
 #include "windlass/petsc/session.hpp"
@@ -80,7 +81,7 @@ int run_locus(const LocusRequest& request) {
   if (!scene.continuation) throw InputError(scene.name + ": the run's scene has no [continuation] table");
   const std::string first = scene.continuation->parameter;
   if (first == request.second) throw InputError("the locus needs a second parameter other than " + first);
-  if (stored.has_cylinder) scene.load.tension = stored.T, scene.load.angle = stored.phi;
+  scene = scene_of_point(scene, run, *run.points.find(request.label));
   const auto special = relocate(scene, stored, {first, request.second}, type_of(row.type));
   if (!special)
     throw std::runtime_error("the special point " + request.label +

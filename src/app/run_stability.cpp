@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "app/commands.hpp"
+#include "app/stored_point.hpp"
 #include "windlass/equilibrium/record.hpp"
 #include "windlass/equilibrium/start.hpp"
 #include "windlass/output/run_folder.hpp"
@@ -26,9 +27,7 @@ int run_stability(const RunRequest& request) {
     if (!request.label.empty() && request.label != name) continue;
     found = true;
     const equilibrium::Solution stored = run.points.get(k);
-    scene::Scene at = scene;
-    if (stored.has_cylinder) at.load.tension = stored.T, at.load.angle = stored.phi;
-    if (!stored.has_cylinder && at.ends.shortening) at.ends.shortening = stored.shortening;
+    const scene::Scene at = scene_of_point(scene, run, k);
     auto problem = equilibrium::reopen(at, stored.restart, {equilibrium::load_key(at)});
     const equilibrium::Stability stability = stability::analyse(
         *problem, stored.restart.state, problem->parameters(), request.eigenvalues, true, solver);

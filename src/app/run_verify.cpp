@@ -1,8 +1,9 @@
 #include <cstdio>
 
 #include "app/commands.hpp"
+#include "app/stored_point.hpp"
 #include "windlass/output/run_folder.hpp"
-#include "windlass/scene/keys.hpp"
+#include "windlass/scene/error.hpp"
 #include "windlass/verify/certificate.hpp"
 
 namespace windlass::app {
@@ -10,18 +11,16 @@ namespace windlass::app {
 int run_verify(const RunRequest& request) {
   const scene::Scene scene = scene_of_run(request.run, request.common);
   const output::Run run = output::read_run(request.run);
+  if (run.points.size() == 0)
+    throw InputError(request.run.string() + ": holds no points yet, so there is nothing to verify");
   nlohmann::ordered_json report;
   int failed = 0;
   for (std::size_t k = 0; k < run.points.size(); ++k) {
     const auto& key = run.points.keys()[k];
     const std::string name = output::point_name(key.branch, key.point, key.label);
-    if (!request.label.empty() && request.label != name) continue;
     const equilibrium::Solution solution = run.points.get(k);
-    scene::Scene at = scene;
-    if (solution.has_cylinder) at.load.tension = solution.T, at.load.angle = solution.phi;
-    if (!run.info.extra_parameter.empty() && run.rows[k].parameter)
-      scene::set_parameter(at, run.info.extra_parameter, *run.rows[k].parameter);
-    const verify::Certificate certificate = verify::verify(solution, at);
+    const verify::Certificate certificate =
+        verify::verify(solution, scene_of_point(scene, run, k), request.standard);
     report["points"].push_back({{"name", name}, {"certificate", verify::to_json(certificate)}});
     if (certificate.passed()) continue;
     ++failed;

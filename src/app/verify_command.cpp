@@ -13,10 +13,12 @@ void add_verify(CLI::App& app, CommonOptions& common, int& status) {
       "and the smallest contact force. Exit status 3 if a point fails.");
   const auto request = std::make_shared<RunRequest>();
   command->add_option("RUN", request->run, "run folder")->required()->type_name("");
-  command->add_option("--tolerance", request->tolerance, "of the reference integration")
+  command
+      ->add_option("--tolerance", request->standard.tolerance,
+                   "relative tolerance of the reference integration")
       ->check(CLI::Range(1e-15, 1e-3))
       ->capture_default_str();
-  command->add_option("--accept", request->accept, "largest defect that passes")
+  command->add_option("--accept", request->standard.accept, "largest defect that passes")
       ->check(CLI::Range(1e-15, 1.0))
       ->capture_default_str();
   add_common_options(*command, common);

@@ -228,7 +228,7 @@ Solution record(RodProblem& problem, const Vector& x, const Vector& p) {
   return out;
 }
 
-Restart restart_of(const RodProblem& problem, const Vector& x) {
+std::string chain_of(const RodProblem& problem) {
   nlohmann::json chain;
   const auto words = [](const std::vector<Stretch>& side) {
     std::vector<int> out;
@@ -242,23 +242,29 @@ Restart restart_of(const RodProblem& problem, const Vector& x) {
   chain["left"] = words(problem.topology().left);
   for (const auto& mesh : problem.meshes())
     chain["meshes"].push_back({{"nodes", mesh.nodes}, {"stages", mesh.stages}});
-  return {chain.dump(), x};
+  return chain.dump();
+}
+
+Restart restart_of(const RodProblem& problem, const Vector& x) { return {chain_of(problem), x}; }
+
+std::shared_ptr<RodProblem> rebuild(const scene::Scene& scene, const std::string& text,
+                                    const std::vector<std::string>& keys) {
+  const nlohmann::json chain = nlohmann::json::parse(text);
+  Topology topology;
+  topology.half = chain.at("half");
+  topology.mid_touch = chain.at("mid_touch");
+  for (int k : chain.at("right")) topology.right.push_back(static_cast<Stretch>(k));
+  for (int k : chain.at("left")) topology.left.push_back(static_cast<Stretch>(k));
+  std::vector<chain::ArcMesh> meshes;
+  for (const auto& mesh : chain.at("meshes"))
+    meshes.push_back({mesh.at("nodes").get<std::vector<double>>(), mesh.at("stages").get<int>()});
+  return std::make_shared<RodProblem>(scene, chain.at("spatial").get<bool>(), topology, meshes, keys);
 }
 
 std::shared_ptr<RodProblem> reopen(const scene::Scene& scene, const Restart& restart,
-                                   std::vector<std::string> keys) {
+                                   const std::vector<std::string>& keys) {
   try {
-    const nlohmann::json chain = nlohmann::json::parse(restart.chain);
-    Topology topology;
-    topology.half = chain.at("half");
-    topology.mid_touch = chain.at("mid_touch");
-    for (int k : chain.at("right")) topology.right.push_back(static_cast<Stretch>(k));
-    for (int k : chain.at("left")) topology.left.push_back(static_cast<Stretch>(k));
-    std::vector<chain::ArcMesh> meshes;
-    for (const auto& mesh : chain.at("meshes"))
-      meshes.push_back({mesh.at("nodes").get<std::vector<double>>(), mesh.at("stages").get<int>()});
-    auto problem = std::make_shared<RodProblem>(scene, chain.at("spatial").get<bool>(), topology, meshes,
-                                                std::move(keys));
+    auto problem = rebuild(scene, restart.chain, keys);
     if (problem->chain().ambient_size() != restart.state.size())
       throw std::runtime_error("its state has another size");
     return problem;

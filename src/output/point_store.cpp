@@ -285,6 +285,12 @@ Solution PointStore::get(std::size_t position) const {
   return solution;
 }
 
+PointStore PointStore::first(std::size_t count) const {
+  PointStore store;
+  for (std::size_t k = 0; k < count; ++k) store.append(keys_.at(k), get(k));
+  return store;
+}
+
 void PointStore::write(const std::filesystem::path& path) {
   write_tables(path, point_tables(columns_), about);
 }

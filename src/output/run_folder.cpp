@@ -18,9 +18,10 @@ constexpr const char* info_file = "run.json";
 constexpr const char* branches_file = "branches.csv";
 constexpr const char* special_file = "special_points.json";
 constexpr const char* points_file = "points.h5";
+constexpr const char* checkpoint_file = "checkpoint.cbor";
 
-/// Makes the folder, or checks that an existing one may be written into.
-void prepare_folder(const fs::path& folder, bool force) {
+/// Checks that a run may be written into the folder; nothing is made yet.
+void check_folder(const fs::path& folder, bool force) {
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error)) {
     throw OutputError("cannot make the run folder " + folder.string() + ": a file of that name exists");
@@ -30,8 +31,18 @@ void prepare_folder(const fs::path& folder, bool force) {
                       " exists and is not empty; use --force to replace the run in it, "
                       "or --out to write elsewhere");
   }
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw OutputError("cannot make the run folder " + folder.string() + ": " + error.message());
+}
+
+void remove_file(const fs::path& path) {
+  std::error_code error;
+  fs::remove(path, error);
+  if (error) throw OutputError("cannot remove " + path.string() + ": " + error.message());
 }
 
 ordered_json parse_json(const fs::path& path) {
@@ -57,9 +68,11 @@ auto convert_json(const fs::path& path, Convert convert) {
 }  // namespace
 
 RunWriter RunWriter::create(const fs::path& folder, const scene::Scene& scene, const WriterOptions& options) {
-  prepare_folder(folder, options.force);
+  check_folder(folder, options.force);
+  const fs::path named = folder.has_filename() ? folder : folder.parent_path();  // without a slash at its end
+  const bool fresh = !fs::exists(named);
   RunWriter writer;
-  writer.folder_ = folder;
+  writer.folder_ = fresh ? fs::path(named.string() + ".part") : named;
   writer.info_.version = options.version;
   writer.info_.command = options.command;
   writer.info_.scene = scene.name;
@@ -67,17 +80,50 @@ RunWriter RunWriter::create(const fs::path& folder, const scene::Scene& scene, c
   writer.info_.extra_parameter = options.extra_parameter;
   writer.info_.options = options.options;
   writer.info_.machine = describe_machine();
-  replace_file(folder / scene_file, std::string_view(scene.resolved_toml));
+  writer.save_every_ = options.save_every;
+  writer.last_checkpoint_ = std::chrono::steady_clock::now();
+  make_folder(writer.folder_);
+  // A mixture of the old run and the new must not be taken for a run: run.json goes first and comes last.
+  for (const char* file : {info_file, checkpoint_file}) remove_file(writer.folder_ / file);
+  replace_file(writer.folder_ / scene_file, std::string_view(scene.resolved_toml));
   writer.rewrite_branches();
   writer.write_special_points();
   writer.commit();
+  if (fresh) {
+    std::error_code error;
+    fs::rename(writer.folder_, named, error);
+    if (error) throw OutputError("cannot make the run folder " + named.string() + ": " + error.message());
+    writer.folder_ = named;
+    writer.branches_ = AppendFile(named / branches_file);
+  }
   return writer;
 }
 
-RunWriter RunWriter::resume(const fs::path& folder) {
+namespace {
+
+/// Drops what lies beyond the extent.
+void cut(Run& run, const Extent& extent) {
+  if (run.rows.size() < extent.points || run.points.size() < extent.points ||
+      run.special_points.size() < extent.special_points ||
+      run.info.lost_branches.size() < extent.lost_branches)
+    throw OutputError("cannot go on with " + run.folder.string() +
+                      ": its checkpoint knows of points that its other files do not hold");
+  run.rows.resize(extent.points);
+  run.special_points.resize(extent.special_points);
+  run.info.lost_branches.resize(extent.lost_branches);
+  if (run.points.size() > extent.points) run.points = run.points.first(extent.points);
+}
+
+}  // namespace
+
+RunWriter RunWriter::resume(const fs::path& folder, const std::optional<Extent>& extent,
+                            std::optional<double> save_every) {
   Run run = read_run(folder);
+  if (extent) cut(run, *extent);
   RunWriter writer;
   writer.folder_ = folder;
+  writer.save_every_ = save_every;
+  if (save_every) writer.set_pause({});
   writer.info_ = std::move(run.info);
   writer.store_ = std::move(run.points);
   for (BranchRow& row : run.rows) {
@@ -87,9 +133,11 @@ RunWriter RunWriter::resume(const fs::path& folder) {
     if (writer.store_.find(point.label)) writer.special_points_.push_back(std::move(point));
   }
   writer.committed_ = writer.store_.size();
-  writer.last_commit_ = std::chrono::steady_clock::now();
-  writer.rewrite_branches();
+  writer.last_commit_ = writer.last_checkpoint_ = std::chrono::steady_clock::now();
+  // In this order a kill leaves no special point without its solution, and no solution without its row.
   writer.write_special_points();
+  if (extent) writer.store_.write(folder / points_file);
+  writer.rewrite_branches();
   writer.write_info();
   return writer;
 }
@@ -133,9 +181,27 @@ void RunWriter::commit() {
   write_info();
   committed_ = store_.size();
   last_commit_ = std::chrono::steady_clock::now();
+  set_pause(last_commit_ - begin);
+}
+
+void RunWriter::set_pause(std::chrono::duration<double> writing) {
   // at most 5 % of the time of a run goes into rewriting points.h5
-  pause_ = std::max(std::chrono::duration<double>(1.0),
-                    std::chrono::duration<double>(20.0 * (last_commit_ - begin)));
+  pause_ = save_every_ ? std::chrono::duration<double>(*save_every_)
+                       : std::max(std::chrono::duration<double>(1.0), 20.0 * writing);
+}
+
+void RunWriter::checkpoint(nlohmann::json state) {
+  const auto begin = std::chrono::steady_clock::now();
+  if (committed_ != store_.size()) commit();
+  const nlohmann::json checkpoint = {{"points", store_.size()},
+                                     {"special_points", special_points_.size()},
+                                     {"lost_branches", info_.lost_branches.size()},
+                                     {"state", std::move(state)}};
+  std::vector<char> bytes;
+  nlohmann::json::to_cbor(checkpoint, bytes);
+  replace_file(folder_ / checkpoint_file, bytes);
+  last_checkpoint_ = std::chrono::steady_clock::now();
+  set_pause(last_checkpoint_ - begin);
 }
 
 void RunWriter::finish(const std::string& status, const Timings& timings, ordered_json summary) {
@@ -147,6 +213,7 @@ void RunWriter::finish(const std::string& status, const Timings& timings, ordere
   write_special_points();
   write_info();
   committed_ = store_.size();
+  if (status != "interrupted") remove_file(folder_ / checkpoint_file);
 }
 
 void RunWriter::rewrite_branches() {
@@ -172,6 +239,19 @@ const BranchRow& Run::row(const std::string& name) const {
     if (name == row.label || name == point_name(row.branch, row.point, "")) return row;
   }
   throw OutputError("there is no point \"" + name + "\" in " + (folder / branches_file).string());
+}
+
+std::optional<Checkpoint> read_checkpoint(const fs::path& folder) {
+  const fs::path path = folder / checkpoint_file;
+  if (!fs::exists(path)) return std::nullopt;
+  const std::string bytes = read_file(path);
+  try {
+    nlohmann::json json = nlohmann::json::from_cbor(bytes);
+    const Extent extent{json.at("points"), json.at("special_points"), json.at("lost_branches")};
+    return Checkpoint{extent, std::move(json.at("state"))};
+  } catch (const nlohmann::json::exception& error) {
+    throw OutputError("cannot read " + path.string() + ": it is truncated or damaged (" + error.what() + ")");
+  }
 }
 
 Run read_run(const fs::path& folder, bool with_points) {

@@ -331,13 +331,18 @@ BOOST_AUTO_TEST_CASE(interrupted_runs_stay_readable) {
 
 BOOST_AUTO_TEST_CASE(a_full_disk_is_an_answer_and_leaves_what_was_there) {
   const TemporaryFolder folder;
-  const Outcome outcome = run_program(planar("continue", {"--out", "run"}), folder.path(),
-                                      "eval \"trap '' XFSZ; ulimit -f 200\";");
+  const Words words = planar("continue", {"--save-every", "0", "--out", "run"});
+  const Outcome outcome = run_program(words, folder.path(), "eval \"trap '' XFSZ; ulimit -f 200\";");
   BOOST_TEST(outcome.status == 1);
   BOOST_TEST(contains(outcome.err, "windlass: cannot write run/points.h5"), outcome.err);
   BOOST_TEST(read_csv(folder.path() / "run" / "branches.csv").rows.size() > 3u);
-  BOOST_TEST(run_program({"verify", "run"}, folder.path()).status ==
-             0);  // readable: the points committed so far
+  const Outcome stored = run_program({"verify", "run"}, folder.path());  // the points committed so far
+  BOOST_TEST(stored.status == 0, stored.err);
+  // With room again it goes on to what it would have become.
+  BOOST_TEST(run_program(words + Words{"--resume"}, folder.path()).status == 0);
+  BOOST_TEST(run_program(planar("continue", {"--out", "whole"}), folder.path()).status == 0);
+  BOOST_TEST(slurp(folder.path() / "run" / "special_points.json") ==
+             slurp(folder.path() / "whole" / "special_points.json"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

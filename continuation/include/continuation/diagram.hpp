@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@ namespace continuation {
 
 struct DiagramOptions {
   bool both_ways = false;  ///< the first branch is walked in both directions from the start
+  bool arms = true;        ///< branches that leave branch points are walked, too
   int max_branches = 50;   ///< branches in all
   int max_depth = 3;       ///< branch points between the first branch and the last arms
 };
@@ -39,6 +41,23 @@ struct Diagram {
   bool stopped = false;  ///< by should_stop
 };
 
+/// A branch not walked yet: the first one, its other direction, or an arm of a branch point.
+struct PendingBranch {
+  Arm start;        ///< the first branch has neither tangent nor epsilon
+  int special = 0;  ///< place in Diagram::specials of the branch point it leaves; −1: the start
+  int depth = 0;
+  bool back = false;  ///< the first branch against Options::direction
+};
+
+/// A diagram between two steps, as data: everything needed to go on with it.
+struct DiagramState {
+  Diagram diagram;  ///< so far; its last branch is in progress if there is a walker
+  std::deque<PendingBranch> pending;
+  std::optional<Walker> walker;
+  int first_special = 0;                         ///< of the branch in progress, place in Diagram::specials
+  int folds = 0, branch_points = 0, events = 0;  ///< labels given
+};
+
 /// Receives the diagram while it grows. All do nothing by default.
 class DiagramObserver {
  public:
@@ -47,7 +66,10 @@ class DiagramObserver {
   virtual void on_point(const Branch&, const Point&) {}          ///< every point, special ones included
   virtual void on_special_point(const Branch&, const Point&) {}  ///< new special points, after on_point
   virtual void on_branch_end(const Branch&) {}
-  virtual bool should_stop() { return false; }  ///< polled after each point
+  virtual bool should_stop() { return false; }  ///< polled after each step
+  /// After each step, before a stop ends the branch in progress: all that was found has been reported, and
+  /// resume_diagram would go on from this state. It shares the walker's live problem: store it now or never.
+  virtual void on_rest(const DiagramState&) {}
 };
 
 /// The first branch, then, breadth first, the arms of every branch point found.
@@ -57,5 +79,10 @@ class DiagramObserver {
 Diagram trace_diagram(std::shared_ptr<Problem> problem, const Vector& x, const Vector& p,
                       const Options& options, const DiagramOptions& diagram_options,
                       DiagramObserver& observer);
+
+/// Goes on where `state` was handed out; with the same options the diagram ends like one never left. Branches
+/// and points reported before are not reported again.
+Diagram resume_diagram(DiagramState state, const Options& options, const DiagramOptions& diagram_options,
+                       DiagramObserver& observer);
 
 }  // namespace continuation

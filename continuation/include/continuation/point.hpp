@@ -27,7 +27,7 @@ struct Point {
   int index_after = -1;  ///< at a special point: after it
 
   // Special points only.
-  std::string label;                                ///< "F1", "B1", "E1" ..., counted along the walk
+  std::string label;                                ///< "F1", "B1", "E1" ..., given by trace_diagram
   std::string event;                                ///< name of the event function
   std::string before, after;                        ///< the two descriptions of a Transition
   std::string note;                                 ///< e.g. why a branch point was not polished

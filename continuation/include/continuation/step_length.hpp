@@ -16,8 +16,11 @@ namespace continuation {
 class StepLength {
  public:
   explicit StepLength(const Options& options);
+  /// Goes on from where another one was.
+  StepLength(const Options& options, double current, bool after_rejection);
 
   double current() const { return step_; }
+  bool after_rejection() const { return after_rejection_; }
 
   /// @param iterations   N, corrections of the accepted step
   /// @param contraction  θ of the accepted step; 0 when there were fewer than two corrections

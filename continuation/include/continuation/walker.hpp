@@ -5,11 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "continuation/detect.hpp"
 #include "continuation/options.hpp"
-#include "continuation/point.hpp"
 #include "continuation/segment.hpp"
 #include "continuation/step_length.hpp"
+#include "continuation/walk_state.hpp"
 
 namespace continuation {
 
@@ -35,19 +34,27 @@ class Walker {
   /// From a stored point, in the direction of a tangent (shape n; need not be exact).
   Walker(std::shared_ptr<Problem> problem, Vector x, Vector p, Tangent tangent, const Options& options);
 
+  /// Goes on from where another walker was.
+  Walker(WalkState state, const Options& options);
+
   /// The next point; nullopt when the branch is over, see end(). The first is the start.
   std::optional<Point> step();
 
   /// Ends the walk after what has been yielded (Ctrl-C).
   void stop(const std::string& reason);
 
-  const End& end() const { return end_; }
-  const std::shared_ptr<Problem>& problem() const { return problem_; }
-  const Vector& x() const { return x_; }
-  const Vector& p() const { return p_; }
-  const Tangent& tangent() const { return tangent_; }
-  int index() const { return index_; }
-  double path_length() const { return path_length_; }
+  /// Everything found by the last step has been handed out: a walk can be left here and gone on with later.
+  bool at_rest() const { return queue_.empty(); }
+  /// What a walker that goes on from here needs; shares the problem. Only at rest.
+  WalkState state() const;
+
+  const End& end() const { return state_.end; }
+  const std::shared_ptr<Problem>& problem() const { return state_.problem; }
+  const Vector& x() const { return state_.x; }
+  const Vector& p() const { return state_.p; }
+  const Tangent& tangent() const { return state_.tangent; }
+  int index() const { return state_.index; }
+  double path_length() const { return state_.path_length; }
   const Options& options() const { return options_; }
 
  private:
@@ -70,30 +77,13 @@ class Walker {
 
   double& parameter(Vector& p) const { return p[options_.parameter]; }
   double parameter(const Vector& p) const { return p[options_.parameter]; }
-  void lose(const std::string& reason) { end_ = End{End::Kind::lost, reason}; }
+  void lose(const std::string& reason) { state_.end = End{End::Kind::lost, reason}; }
 
-  std::shared_ptr<Problem> problem_;
-  Vector x_, p_;
-  Tangent tangent_, previous_tangent_;
+  WalkState state_;  // its step and after_rejection are kept by step_length_
   Options options_;
   StepLength step_length_;
-  int index_ = -1, determinant_ = 0;
-  std::vector<EventFunction> events_, previous_events_;
-  double last_ds_ = 0.0;
-  EventSigns signs_;
-  double path_length_ = 0.0;
-  int points_ = 0;
-  int events_in_place_ = 0;  // consecutive events without progress
-  bool started_ = false, has_tangent_ = false, adapt_pending_ = false;
-  bool mesh_changed_ = false;  // since remember_start: states no longer compare entry by entry
-  int folds_ = 0, branch_points_ = 0, event_points_ = 0;
-
-  Vector start_x_;  // to see a closed curve
-  Vector start_fingerprint_;
-  double start_parameter_ = 0.0, start_slope_ = 0.0;
-
   std::deque<Point> queue_;
-  End end_, pending_end_;
+  End pending_end_;
 };
 
 }  // namespace continuation

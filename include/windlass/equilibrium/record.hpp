@@ -9,12 +9,19 @@ namespace windlass::equilibrium {
 /// The whole rod (both halves) at state x and parameters p. Error estimate and iterations are the problem's last.
 Solution record(RodProblem& problem, const Vector& x, const Vector& p);
 
+/// Topology and meshes as JSON text.
+std::string chain_of(const RodProblem& problem);
+
+/// The problem so described. @throws std::exception for text that is no chain
+std::shared_ptr<RodProblem> rebuild(const scene::Scene& scene, const std::string& chain,
+                                    const std::vector<std::string>& keys);
+
 /// Chain description and state, for Solution::restart.
 Restart restart_of(const RodProblem& problem, const Vector& x);
 
 /// The problem and state a stored solution came from. @throws std::runtime_error for damaged restart data
 std::shared_ptr<RodProblem> reopen(const scene::Scene& scene, const Restart& restart,
-                                   std::vector<std::string> keys);
+                                   const std::vector<std::string>& keys);
 
 /// Largest drift of the invariants along the rod and the residual of the force balance; fills solution.invariants.
 void measure_invariants(Solution& solution, const chain::RodKind& kind);

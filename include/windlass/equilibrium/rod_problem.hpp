@@ -71,6 +71,13 @@ class RodProblem final : public continuation::Problem {
   const std::vector<std::string>& keys() const { return keys_; }
   bool spatial() const { return spatial_; }
   double last_error() const { return last_error_; }
+  /// What earlier calls leave behind for later ones; a copy needs it to answer as this problem would.
+  struct Memory {
+    int index = -1;
+    double error = 0.0;
+  };
+  Memory memory() const { return {index_, last_error_}; }
+  void remember(const Memory& memory) { index_ = memory.index, last_error_ = memory.error; }
 
   /// Quantity whose relative error is controlled: R_tot, or a strut's end force.
   double target(const chain::Chain& chain, const Vector& x, const contact::Loads& loads) const;

@@ -81,6 +81,9 @@ class PointStore {
   /// Replaces the stability record of a stored point. @throws OutputError when there is no such point
   void set_stability(const std::string& name, const equilibrium::Stability& stability);
 
+  /// A store of the first `count` points alone.
+  PointStore first(std::size_t count) const;
+
   std::size_t size() const { return keys_.size(); }
   const std::vector<Key>& keys() const { return keys_; }
   /// Position of a point called by its label or "BRANCH-POINT"; empty when there is none.

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,8 @@
 #include "windlass/output/records.hpp"
 #include "windlass/scene/scene.hpp"
 
-/// The run folder: scene.toml, run.json, branches.csv, special_points.json, points.h5.
+/// The run folder: scene.toml, run.json, branches.csv, special_points.json, points.h5; checkpoint.cbor while a run that
+/// can be gone on with is not over.
 ///
 /// At every moment, also after SIGKILL or a full disk, the folder is readable. branches.csv grows by one write
 /// a row; the other files are replaced whole (temporary file + rename). points.h5 is replaced when a special
@@ -24,17 +26,36 @@ struct WriterOptions {
   std::string version = "unknown";
   std::string extra_parameter;  ///< dotted key that gets its own, last CSV column; empty: none
   nlohmann::ordered_json options = nlohmann::ordered_json::object();
+  /// Longest time between two commits [s]; 0: at every point. Empty: a second, more where writing takes longer.
+  std::optional<double> save_every;
 };
+
+/// How much of a run's lists a checkpoint knows of; what a killed run stored beyond it is computed again.
+struct Extent {
+  std::size_t points = 0, special_points = 0, lost_branches = 0;
+};
+
+/// What a run goes on from. `state` is the business of who computes the run.
+struct Checkpoint {
+  Extent extent;
+  nlohmann::json state;
+};
+
+/// @return nullopt where there is none. @throws OutputError when it is unreadable or damaged
+std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& folder);
 
 class RunWriter {
  public:
-  /// Makes the folder (parents too) and its first files.
+  /// Makes the folder (parents too) and its first files; a new folder appears under its name when they are complete.
   /// @throws OutputError when it holds something and force is false, or cannot be written
   static RunWriter create(const std::filesystem::path& folder, const scene::Scene& scene,
                           const WriterOptions& options);
-  /// Opens a stored run to go on. Rows and special points whose solution was not stored are dropped.
-  /// @throws OutputError when the folder cannot be read or written
-  static RunWriter resume(const std::filesystem::path& folder);
+  /// Opens a stored run to go on. Rows and special points whose solution was not stored are dropped, and so is what
+  /// lies beyond `extent`.
+  /// @throws OutputError when the folder cannot be read or written, or holds less than the extent
+  static RunWriter resume(const std::filesystem::path& folder,
+                          const std::optional<Extent>& extent = std::nullopt,
+                          std::optional<double> save_every = std::nullopt);
 
   /// Rows are on disk on return; the solution at the next commit. @throws OutputError
   void add_point(const BranchRow& row, const equilibrium::Solution& solution);
@@ -45,7 +66,13 @@ class RunWriter {
   void set_stability(const std::string& name, const equilibrium::Stability& stability);
   /// Writes points.h5 and run.json now. @throws OutputError
   void commit();
-  /// Final commit with status "finished", "interrupted" or "incomplete". @throws OutputError
+  /// Time for the next checkpoint.
+  bool checkpoint_due() const { return std::chrono::steady_clock::now() - last_checkpoint_ >= pause_; }
+  /// Commits, then stores what the run can be gone on from. The order makes a kill in between harmless: a checkpoint
+  /// never knows more than the other files. @throws OutputError
+  void checkpoint(nlohmann::json state);
+  /// Final commit with status "finished", "interrupted" or "incomplete"; only an interrupted run keeps its checkpoint.
+  /// @throws OutputError
   void finish(const std::string& status, const Timings& timings, nlohmann::ordered_json summary);
 
   const std::filesystem::path& folder() const { return folder_; }
@@ -56,6 +83,7 @@ class RunWriter {
 
  private:
   RunWriter() = default;
+  void set_pause(std::chrono::duration<double> writing);
   void rewrite_branches();
   void write_special_points() const;
   void write_info() const;
@@ -68,7 +96,8 @@ class RunWriter {
   PointStore store_;
   std::size_t committed_ = 0;
   bool rows_stale_ = false;  ///< rows_ holds what branches.csv does not
-  std::chrono::steady_clock::time_point last_commit_{};
+  std::optional<double> save_every_;
+  std::chrono::steady_clock::time_point last_commit_{}, last_checkpoint_{};
   std::chrono::duration<double> pause_{1.0};
 };
 

@@ -1,0 +1,17 @@
+#include "app/stored_point.hpp"
+
+#include "windlass/scene/keys.hpp"
+
+namespace windlass::app {
+
+scene::Scene scene_of_point(scene::Scene scene, const output::Run& run, std::size_t position) {
+  const output::PointStore::Key& key = run.points.keys().at(position);
+  const output::BranchRow& row = run.row(output::point_name(key.branch, key.point, ""));
+  if (!run.info.extra_parameter.empty() && row.parameter)
+    scene::set_parameter(scene, run.info.extra_parameter, *row.parameter);
+  if (scene.has_cylinder) scene.load.tension = row.T, scene.load.angle = row.phi;
+  if (!scene.has_cylinder && scene.ends.shortening) scene.ends.shortening = row.shortening;
+  return scene;
+}
+
+}  // namespace windlass::app

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "windlass/output/run_folder.hpp"
+#include "windlass/scene/scene.hpp"
+
+namespace windlass::app {
+
+/// The run's scene with the loads, and the parameter that varied, of a stored point.
+scene::Scene scene_of_point(scene::Scene scene, const output::Run& run, std::size_t position);
+
+}  // namespace windlass::app

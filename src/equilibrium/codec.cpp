@@ -1,0 +1,20 @@
+#include "windlass/equilibrium/codec.hpp"
+
+#include "windlass/equilibrium/record.hpp"
+
+namespace windlass::equilibrium {
+
+continuation::ProblemCodec rod_codec(const scene::Scene& scene, const std::vector<std::string>& keys) {
+  return {[](const continuation::Problem& problem) -> nlohmann::json {
+            const auto& rod = dynamic_cast<const RodProblem&>(problem);
+            const RodProblem::Memory memory = rod.memory();
+            return {{"chain", chain_of(rod)}, {"index", memory.index}, {"error", memory.error}};
+          },
+          [scene, keys](const nlohmann::json& data) -> std::shared_ptr<continuation::Problem> {
+            const auto rod = rebuild(scene, data.at("chain").get<std::string>(), keys);
+            rod->remember({data.at("index"), data.at("error")});
+            return rod;
+          }};
+}
+
+}  // namespace windlass::equilibrium
