@@ -28,7 +28,7 @@ void add_branch_command(CLI::App& command, CommonOptions& common, int& status,
       .add_option("--save-every", words->save_every,
                   "seconds between two savings of what --resume needs; 0: at every point (default 1, more "
                   "where saving takes long)")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0.0, 1e6))
       ->type_name("SECONDS");
   command.add_flag("!--no-eigenvalues", words->eigenvalues,
                    "the lowest eigenvalue at special points only; every point keeps its index");

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
-
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -96,6 +96,8 @@ int main(int argc, char** argv) {
     return complain(error.what(), bad_input);
   } catch (const output::OutputError& error) {  // a run folder that cannot be read or written
     return complain(error.what(), bad_input);
+  } catch (const std::filesystem::filesystem_error& error) {  // a folder that may not be entered
+    return complain((error.path1().string() + ": " + error.code().message()).c_str(), bad_input);
   } catch (const std::exception& error) {
     return complain(error.what(), not_finished);
   } catch (...) {

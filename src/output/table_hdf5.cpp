@@ -1,5 +1,8 @@
 #include <hdf5.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <system_error>
 #include <utility>
 
 #include "windlass/output/atomic_file.hpp"
@@ -171,6 +174,8 @@ void write_tables(const std::filesystem::path& path, const std::vector<Table>& t
 void read_tables(const std::filesystem::path& path, const std::vector<Table>& tables) {
   const QuietHdf5 quiet;
   if (!std::filesystem::exists(path)) throw OutputError("cannot read " + path.string() + ": no such file");
+  if (::access(path.c_str(), R_OK) != 0)
+    throw OutputError("cannot read " + path.string() + ": " + std::generic_category().message(errno));
   const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (id < 0) throw OutputError("cannot read " + path.string() + ": it is truncated or not an HDF5 file");
   const Handle file(id, H5Fclose, "open a file");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "support/run_program.hpp"
+#include "windlass/output/point_store.hpp"
 #include "windlass/rod/capstan.hpp"
 
 using namespace windlass::test;
@@ -211,9 +212,13 @@ BOOST_AUTO_TEST_CASE(a_diagram_holds_the_branch_that_leaves_the_plane) {
   // The program's own value, kept: no other source gives it to more digits.
   BOOST_TEST(std::abs(special[0]["T"].get<double>() - 1.285936842) < 1e-7);
   bool helical = false;
-  for (const auto& row : read_csv(folder.path() / "run" / "branches.csv").rows)
+  for (const auto& row : read_csv(folder.path() / "run" / "branches.csv").rows) {
     helical =
         helical || (row.at("branch") == "2" && std::stod(row.at("z_span")) > 1.0 && row.at("index") == "0");
+    // The index counts pivots of the condensed chain, the eigenvalue is SLEPc's: two ways to the same stability.
+    if (row.at("type") == "regular")
+      BOOST_TEST((std::stod(row.at("eigenvalue_1")) < 0.0) == (row.at("index") != "0"), row.at("T"));
+  }
   BOOST_TEST(helical);
   const Outcome certificate = run_program({"verify", "run"}, folder.path());
   BOOST_TEST(certificate.status == 0, certificate.out);
@@ -274,6 +279,31 @@ BOOST_AUTO_TEST_CASE(damaged_run_folders_are_named) {
     }
     fs::remove_all(folder.path() / "damaged");
   }
+}
+
+BOOST_AUTO_TEST_CASE(damaged_points_fail_by_name) {
+  const TemporaryFolder folder;
+  make_run(folder);
+  const fs::path path = folder.path() / "run" / "points.h5";
+  const auto stored = windlass::output::PointStore::read(path);
+  windlass::output::PointStore damaged;
+  for (std::size_t k = 0; k < stored.size(); ++k) {
+    auto solution = stored.get(k);
+    if (k == 4) solution.arcs[0].m(2, 3) += 1e-6;
+    damaged.append(stored.keys()[k], solution);
+  }
+  damaged.write(path);
+  const Outcome failed = run_program({"verify", "run"}, folder.path());
+  BOOST_TEST(failed.status == 3, failed.err);
+  BOOST_TEST(contains(failed.out, "point 1-5 "), failed.out);
+  BOOST_TEST(contains(failed.out, "FAILED arc_moment"), failed.out);
+  BOOST_TEST(contains(failed.out, ", 1 failed"), failed.out);
+  BOOST_TEST(run_program({"verify", "run", "--accept", "1e-4"}, folder.path()).status == 0);
+
+  windlass::output::PointStore().write(path);  // as if it had been killed before its first point was stored
+  const Outcome empty = run_program({"verify", "run"}, folder.path());
+  BOOST_TEST(empty.status == 1);
+  BOOST_TEST(empty.err == "windlass: run: holds no points yet, so there is nothing to verify\n");
 }
 
 BOOST_AUTO_TEST_CASE(a_certificate_can_fail) {
