@@ -73,7 +73,7 @@ class Newton {
       if (k > 0) {
         double contraction = size_ / previous;
         if (k == 1) report_.contraction = contraction;
-        if (size_ > tolerance && size_ * std::pow(contraction, 3) > tolerance) {
+        if (size_ > tolerance && size_ * contraction > tolerance) {  // one more chord step will not do
           factor();
           direction();
           fresh = true;
@@ -85,7 +85,10 @@ class Newton {
       }
       report_.increment = size_;
       const bool small = size_ <= tolerance || (stagnant && size_ <= rounding);
-      const bool done = small && report_.residual <= options_.residual_tolerance;
+      // Where corrections are this small twice, what is left of F is the rounding of its large terms (those of an arc
+      // about to vanish, say).
+      const bool rounded = k > 0 && previous <= tolerance && size_ <= 0.1 * tolerance;
+      const bool done = small && (rounded || report_.residual <= options_.residual_tolerance);
       // At roundoff the state is left alone, so that the factorisation belongs to it exactly.
       if (done && fresh && size_ <= 1e-3 * tolerance) {
         report_.factored_here = true;

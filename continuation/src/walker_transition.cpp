@@ -86,8 +86,11 @@ bool Walker::enter(const Transition& transition, int direction, const std::strin
   const double step = step_length_.current() * options_.parameter_scale;
   const Vector p = state_.p;
   std::vector<double> offsets{0.0};
-  if (transition.p.size() == p.size())
-    offsets.insert(offsets.begin(), parameter(transition.p) - p[options_.parameter]);
+  if (transition.p.size() == p.size()) {
+    const double beside = parameter(transition.p) - p[options_.parameter];
+    offsets.insert(offsets.begin(), beside);
+    if (beside != 0.0) direction = beside < 0.0 ? -1 : 1;  // away from the event
+  }
   for (const int sign : {direction, -direction}) {
     for (const double size : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) offsets.push_back(sign * size * step);
   }

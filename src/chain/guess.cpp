@@ -22,11 +22,11 @@ void adopt_force(const RodKind& rod, Stretch stretch, const Profile::At& at, dou
   if (rod.spatial) n[1] = at.n(2);
 }
 
+/// @param twist  of a line contact, at its start on entry and at its last interior node on return [rad]
 void adopt_interior(const RodKind& rod, Stretch stretch, const Arc& arc, const Profile& profile, double begin,
-                    double length, double* out) {
+                    double length, double& twist, double* out) {
   const std::vector<double> mesh = arc.mesh();
   const VectorXd& points = bvp::CollocationTable::get(arc.stages()).lobatto;
-  double twist = 0.0;
   for (int k = 1; k <= arc.interior_nodes(); ++k) {
     const int e = k / arc.stages();
     const double sigma = mesh[e] + (mesh[e + 1] - mesh[e]) * points(k % arc.stages());
@@ -41,6 +41,27 @@ void adopt_interior(const RodKind& rod, Stretch stretch, const Arc& arc, const P
     } else {
       q[0] = at.heading;
     }
+  }
+}
+
+/// Interior of a line contact in space. Frames give its material twist up to whole turns, which long coils make: they
+/// are counted from the edge on the left, and the joint on the right, or the mid-point, agrees.
+void adopt_line(const RodKind& rod, const Chain& chain, int link, const Profile& profile, double begin,
+                double length, VectorXd& x) {
+  using contact::spatial::Edge;
+  const Arc& arc = *chain.link(link).arc;
+  const auto is_edge = [&](int joint) { return chain.joint(joint).kind() == contact::JointKind::edge; };
+  double twist = is_edge(link) ? Edge::twist(chain.coordinates(x, link)) : 0.0;
+  double* interior = chain.interior(x, link);
+  adopt_interior(rod, Stretch::line, arc, profile, begin, length, twist, interior);
+  const auto turns = [](double angle) { return 2.0 * M_PI * std::round(angle / (2.0 * M_PI)); };
+  if (is_edge(link + 1)) {
+    double& end = Edge::twist(chain.coordinates(x, link + 1));
+    end += turns(twist - end);
+  } else if (is_edge(link)) {  // ends at the mid-point of a full chain, where the twist starts from zero
+    const double excess = turns(twist);
+    Edge::twist(chain.coordinates(x, link)) -= excess;
+    for (int k = 0; k < arc.interior_nodes(); ++k) interior[2 * k + 1] -= excess;
   }
 }
 
@@ -83,8 +104,11 @@ VectorXd guess_state(const Chain& chain, const Topology& topology, const RodKind
     const double begin = s[i], length = s[i + 1] - s[i];
     if (chain.link(i).pull == 0)
       adopt_force(rod, kinds[i], profile.at(begin + 0.5 * length), chain.force(x, i), arc.forces());
-    if (arc.interior_nodes() > 0)
-      adopt_interior(rod, kinds[i], arc, profile, begin, length, chain.interior(x, i));
+    double no_twist = 0.0;
+    if (kinds[i] == Stretch::line && rod.spatial)
+      adopt_line(rod, chain, i, profile, begin, length, x);
+    else if (arc.interior_nodes() > 0)
+      adopt_interior(rod, kinds[i], arc, profile, begin, length, no_twist, chain.interior(x, i));
   }
   return x;
 }

@@ -283,6 +283,7 @@ void Edge::adopt(const Place& place, double* w) const {
   w[1] = place.r(2);
   w[2] = c(1);
   w[3] = c(2);
+  if (surface_frame(w[0], w[2], w[3]).dot(place.q) < 0.0) w[3] += 2.0 * M_PI;  // the quaternion of this sign
 }
 
 void MidLine::adopt(const Place& place, double* w) const { w[0] = surface_coordinates(place.q, 0.0)(1); }

@@ -1,7 +1,11 @@
 #include "windlass/equilibrium/contact_events.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
+#include <utility>
+
+#include "windlass/bvp/collocation_table.hpp"
 
 namespace windlass::equilibrium {
 
@@ -17,8 +21,33 @@ namespace {
 /// Value of an event that is nowhere near: no local minimum of the gap, say.
 constexpr double far = 1.0;
 
-/// Least local minimum of the gap inside a free arc, by a parabola through three samples. Next to a contact the gap is
-/// flat and its samples are rounding; a minimum must stand out by more than that.
+struct Least {
+  double value, s;
+};
+
+/// Least value of a sampled quantity between the neighbours of sample k, on the polynomials of the elements there: an
+/// event located by samples would move with the mesh.
+Least least_near(const Piece& piece, const Eigen::VectorXd& values, Eigen::Index k) {
+  constexpr int bits = 26;  // half of a double: a minimum is flat
+  Least least{values(k), piece.s(k)};
+  for (const Eigen::Index from : {k - 1, k}) {
+    if (from < 0 || from + 1 >= values.size()) continue;
+    const Eigen::Index first = from / piece.stride * piece.stride;
+    const Eigen::VectorXd nodes = piece.s.segment(first, piece.stride + 1);
+    const double begin = nodes(0), length = nodes(piece.stride) - begin;
+    const Eigen::VectorXd scaled = (nodes.array() - begin) / length;
+    const auto polynomial = [&](double x) {
+      return bvp::lagrange_basis(scaled, x).dot(values.segment(first, piece.stride + 1));
+    };
+    const auto [x, value] = boost::math::tools::brent_find_minima(polynomial, scaled(from - first),
+                                                                  scaled(from + 1 - first), bits);
+    if (value < least.value) least = {value, begin + length * x};
+  }
+  return least;
+}
+
+/// Least local minimum of the gap inside a free arc. Next to a contact the gap is flat and its samples are rounding; a
+/// minimum must stand out by more than that.
 ContactEvent graze(const Piece& piece, int link, bool starts_at_mid) {
   constexpr double noise = 1e-11;
   ContactEvent event{Kind::graze, link, far, piece.s(0)};
@@ -28,20 +57,17 @@ ContactEvent graze(const Piece& piece, int link, bool starts_at_mid) {
   if (starts_at_mid && g(0) < g(1)) event = {Kind::graze, link, g(0), piece.s(0)};
   for (Eigen::Index k = 1; k + 1 < count; ++k) {
     if (g(k) > g(k - 1) - noise || g(k) > g(k + 1)) continue;
-    const double a = piece.s(k) - piece.s(k - 1), b = piece.s(k + 1) - piece.s(k);
-    const double left = (g(k) - g(k - 1)) / a, right = (g(k + 1) - g(k)) / b;
-    const double curve = (right - left) / (a + b), slope = (left * b + right * a) / (a + b);
-    const double shift = curve > 0.0 ? std::clamp(-0.5 * slope / curve, -a, b) : 0.0;
-    const double value = g(k) + slope * shift + curve * shift * shift;
-    if (value < event.value) event = {Kind::graze, link, value, piece.s(k) + shift};
+    const Least least = least_near(piece, g, k);
+    if (least.value < event.value) event = {Kind::graze, link, least.value, least.s};
   }
   return event;
 }
 
 ContactEvent least_pressure(const Piece& piece, int link) {
   Eigen::Index k = 0;
-  const double value = piece.p.minCoeff(&k);
-  return {Kind::pressure, link, value, piece.s(k)};
+  piece.p.minCoeff(&k);
+  const Least least = least_near(piece, piece.p, k);
+  return {Kind::pressure, link, least.value, least.s};
 }
 
 }  // namespace
@@ -73,28 +99,44 @@ namespace {
 
 /// The chain's arcs with their bounds: easier to cut and join than topologies.
 struct Strip {
-  std::vector<Stretch> kinds;
-  std::vector<double> s;
-  std::vector<int> source;
+  struct Part {
+    Stretch kind;
+    int source;          ///< link of the old chain
+    bool fresh = false;  ///< has no length at the event itself
+  };
+  std::vector<Part> parts;
+  std::vector<double> s;  ///< bounds of the parts
   bool half = true, mid_touch = false;
   int marker = 0;  ///< joint of the mid-point (full chains)
+
+  /// Takes out part i and its bound at `bound`.
+  void erase(int i, int bound) {
+    parts.erase(parts.begin() + i);
+    s.erase(s.begin() + bound);
+  }
 };
 
 Strip strip_of(const Topology& t, const std::vector<double>& s) {
-  Strip strip{chain::stretches(t), s, {}, t.half, t.mid_touch, static_cast<int>(t.left.size())};
-  for (std::size_t i = 0; i < strip.kinds.size(); ++i) strip.source.push_back(static_cast<int>(i));
+  Strip strip{{}, s, t.half, t.mid_touch, static_cast<int>(t.left.size())};
+  for (const Stretch kind : chain::stretches(t))
+    strip.parts.push_back({kind, static_cast<int>(strip.parts.size())});
   return strip;
 }
 
 Successor successor_of(const Strip& strip) {
   Successor out;
   out.s = strip.s;
-  out.source = strip.source;
+  std::vector<Stretch> kinds;
+  for (const Strip::Part& part : strip.parts) {
+    if (part.fresh) out.opened.push_back(static_cast<int>(kinds.size()));
+    kinds.push_back(part.kind);
+    out.source.push_back(part.source);
+  }
   out.topology.half = strip.half;
   out.topology.mid_touch = strip.mid_touch;
   const int first = strip.half ? 0 : strip.marker;
-  out.topology.right.assign(strip.kinds.begin() + first, strip.kinds.end());
-  out.topology.left.assign(strip.kinds.rend() - first, strip.kinds.rend());
+  out.topology.right.assign(kinds.begin() + first, kinds.end());
+  out.topology.left.assign(kinds.rend() - first, kinds.rend());
   if (strip.half) out.topology.left.clear();
   out.nothing_left = !out.topology.contact();
   return out;
@@ -102,18 +144,16 @@ Successor successor_of(const Strip& strip) {
 
 /// Replaces arcs [first, last] of the strip by one arc.
 void merge(Strip& strip, int first, int last, Stretch kind) {
-  strip.kinds.erase(strip.kinds.begin() + first + 1, strip.kinds.begin() + last + 1);
-  strip.source.erase(strip.source.begin() + first + 1, strip.source.begin() + last + 1);
-  strip.s.erase(strip.s.begin() + first + 1, strip.s.begin() + last + 1);
-  strip.kinds[first] = kind;
+  for (int i = last; i > first; --i) strip.erase(i, i);
+  strip.parts[first].kind = kind;
   if (strip.marker > last) strip.marker -= last - first;
 }
 
-/// Splits arc i at s into (i, kind_left) and (i + 1, kind_right).
+/// Splits arc i at s into (i, left) and (i + 1, right).
 void split(Strip& strip, int i, double s, Stretch left, Stretch right) {
-  strip.kinds[i] = left;
-  strip.kinds.insert(strip.kinds.begin() + i + 1, right);
-  strip.source.insert(strip.source.begin() + i + 1, strip.source[i]);
+  const Strip::Part old = strip.parts[i];
+  strip.parts[i].kind = left;
+  strip.parts.insert(strip.parts.begin() + i + 1, {right, old.source});
   strip.s.insert(strip.s.begin() + i + 1, s);
   if (!strip.half && strip.marker > i) ++strip.marker;
 }
@@ -123,63 +163,81 @@ Stretch joined(Stretch a, Stretch b) {
   return a == Stretch::tail || b == Stretch::tail ? Stretch::tail : Stretch::gap;
 }
 
+/// Stretch of negative pressure round s; no length at the event itself.
+std::pair<double, double> suction(const Piece& line, double s) {
+  const auto edge = [&](Eigen::Index k, Eigen::Index next) {
+    return line.s(k) + (line.s(next) - line.s(k)) * line.p(k) / (line.p(k) - line.p(next));
+  };
+  Eigen::Index k = 0;
+  (line.s.array() - s).abs().minCoeff(&k);
+  if (line.p(k) >= -1e-9) return {s, s};
+  Eigen::Index first = k, last = k;
+  const Eigen::Index end = line.s.size() - 1;
+  while (first > 0 && line.p(first - 1) < 0.0) --first;
+  while (last < end && line.p(last + 1) < 0.0) ++last;
+  return {first > 0 ? edge(first, first - 1) : line.s(0), last < end ? edge(last, last + 1) : line.s(end)};
+}
+
+/// Lengths to try for a gap that opens where the pressure is negative over `width`. A beam held off by the pressure
+/// p₀ + a x² needs √5 times that width for g = g' = g'' = 0 at its ends, one held at a touch 5/3 of it; at the event
+/// itself the width is nothing, and the load gives way to any length: by its square inside, in proportion at an edge.
+std::vector<double> gap_lengths(double width, double factor, double usual, double most) {
+  std::vector<double> out;
+  for (const double part : {1.0, 0.5, 2.0, 3.0})
+    out.push_back(std::min(most, part * (width > 1e-6 ? factor * width : usual)));
+  return out;
+}
+
 std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& strip, const Piece& line) {
   std::vector<Successor> out;
   const int i = event.place;
   const double begin = strip.s[i], end = strip.s[i + 1], length = end - begin;
-  const bool at_mid = strip.half && i == 0;
-  Strip open = strip;  // the whole line lifts at once, on both sides of a full chain's mid-point
-  open.kinds[i] = Stretch::gap;
   const int twin = strip.half ? i : i == strip.marker ? i - 1 : i + 1 == strip.marker ? i + 1 : i;
-  open.kinds[twin] = Stretch::gap;
-  const bool uniform = line.p.maxCoeff() < 1e-6;
-  if (uniform) out.push_back(successor_of(open));
-  // Pressure lost at an edge, whose point force stays: the force becomes a touch, with a gap between it and the line.
-  const bool at_start = event.s < begin + 0.02 * length && i > 0 && !(!strip.half && i == strip.marker);
-  const bool at_end = event.s > end - 0.02 * length && !(!strip.half && i + 1 == strip.marker);
-  for (const double part : {0.08, 0.04, 0.02}) {
-    Strip detached = strip;
-    if (at_end && !uniform) {
-      split(detached, i, end - part * length, Stretch::line, Stretch::gap);
-      out.push_back(successor_of(detached));
-    } else if (at_start && !uniform) {
-      split(detached, i, begin + part * length, Stretch::gap, Stretch::line);
-      out.push_back(successor_of(detached));
+  Strip open = strip;  // the whole line lifts at once, on both sides of a full chain's mid-point
+  open.parts[i].kind = open.parts[twin].kind = Stretch::gap;
+  if (line.p.maxCoeff() < 1e-6) return {successor_of(open)};
+  const auto [low, high] = suction(line, event.s);
+  const double width = high - low, near = 0.02 * length;
+  const bool starts_at_mid = strip.half ? i == 0 : i == strip.marker;
+  const bool ends_at_mid = !strip.half && i + 1 == strip.marker;
+  const bool at_start = low<begin + near, at_end = high> end - near;
+  const bool at_mid = (at_start && starts_at_mid) || (at_end && ends_at_mid);
+  const auto cut = [&](Strip part, int link, double from, double to) {  // a gap [from, to] inside a link
+    const bool before = from > part.s[link], after = to < part.s[link + 1];
+    if (after) split(part, link, to, Stretch::gap, Stretch::line);
+    if (before) split(part, link, from, Stretch::line, Stretch::gap);
+    part.parts[link + before].fresh = true;
+    return part;
+  };
+  if (at_mid) {
+    for (const double size : gap_lengths(2.0 * width, std::sqrt(5.0), 0.3, 1.8 * length)) {
+      const int right = ends_at_mid ? i + 1 : i;
+      Strip inner = cut(strip, right, strip.s[right], strip.s[right] + 0.5 * size);
+      if (twin != i) inner = cut(inner, right - 1, strip.s[right] - 0.5 * size, strip.s[right]);
+      out.push_back(successor_of(inner));
     }
+  } else if (at_start ||
+             at_end) {  // the edge's point force stays: a touch, with a gap between it and the line
+    for (const double size : gap_lengths(width, 5.0 / 3.0, 0.05, 0.9 * length))
+      out.push_back(
+          successor_of(at_end ? cut(strip, i, end - size, end) : cut(strip, i, begin, begin + size)));
+  } else {
+    const double middle = 0.5 * (low + high), room = 1.8 * std::min(middle - begin, end - middle);
+    for (const double size : gap_lengths(width, std::sqrt(5.0), 0.3, room))
+      out.push_back(successor_of(cut(strip, i, middle - 0.5 * size, middle + 0.5 * size)));
   }
-  for (const double size :
-       {0.5, 0.3, 0.8}) {  // an opening grows like the square root: not small a little beyond
-    const double part = size / length;
-    if (part > 0.9) continue;
-    Strip inner = strip;
-    if (at_mid && event.s < begin + 0.02 * length) {
-      split(inner, i, begin + part * length, Stretch::gap, Stretch::line);
-    } else if (twin != i && std::abs(event.s) < 0.02 * length) {
-      const int left = strip.marker - 1;
-      split(inner, left + 1, strip.s[left + 1] + part * length, Stretch::gap, Stretch::line);
-      split(inner, left, strip.s[left + 1] - part * length, Stretch::line, Stretch::gap);
-    } else {
-      const double half_gap = std::min(size, 0.8 * std::min(event.s - begin, end - event.s));
-      if (half_gap < 1e-3 * length) break;
-      split(inner, i, event.s - half_gap, Stretch::line, Stretch::gap);
-      split(inner, i + 1, event.s + half_gap, Stretch::gap, Stretch::line);
-    }
-    out.push_back(successor_of(inner));
-  }
-  if (!uniform) out.push_back(successor_of(open));
+  out.push_back(successor_of(open));
   return out;
 }
 
 std::vector<Successor> after_length(const ContactEvent& event, Strip strip) {
   const int i = event.place;
-  const bool line = strip.kinds[i] == Stretch::line;
+  const bool line = strip.parts[i].kind == Stretch::line;
   std::vector<Successor> out;
   if (strip.half && i == 0) {  // a line or gap about the mid-point shrinks to a touch there
-    strip.kinds.erase(strip.kinds.begin());
-    strip.source.erase(strip.source.begin());
-    strip.s.erase(strip.s.begin());
+    strip.erase(0, 0);
     strip.s[0] = 0.0;
-    if (strip.kinds.front() == Stretch::line) {  // a gap closed inside a line
+    if (strip.parts.front().kind == Stretch::line) {  // a gap closed inside a line
       out.push_back(successor_of(strip));
       return out;
     }
@@ -187,15 +245,13 @@ std::vector<Successor> after_length(const ContactEvent& event, Strip strip) {
     out.push_back(successor_of(strip));
     return out;
   }
-  if (i == 0 || i + 1 == static_cast<int>(strip.kinds.size())) return out;
-  const Stretch before = strip.kinds[i - 1], after = strip.kinds[i + 1];
+  if (i == 0 || i + 1 == static_cast<int>(strip.parts.size())) return out;
+  const Stretch before = strip.parts[i - 1].kind, after = strip.parts[i + 1].kind;
   const double middle = 0.5 * (strip.s[i] + strip.s[i + 1]);
   if (line || (before != Stretch::line && after != Stretch::line)) {
     // free – line – free, or two touches meeting: one touch between the neighbours.
     strip.s[i] = middle;
-    strip.kinds.erase(strip.kinds.begin() + i);
-    strip.source.erase(strip.source.begin() + i);
-    strip.s.erase(strip.s.begin() + i + 1);
+    strip.erase(i, i + 1);
     if (strip.marker > i) --strip.marker;
     out.push_back(successor_of(strip));
   } else if (before == Stretch::line && after == Stretch::line) {
@@ -203,9 +259,7 @@ std::vector<Successor> after_length(const ContactEvent& event, Strip strip) {
     out.push_back(successor_of(strip));
   } else {  // line – gap – touch: the touch joins the line
     if (before == Stretch::line) strip.s[i] = strip.s[i + 1];
-    strip.kinds.erase(strip.kinds.begin() + i);
-    strip.source.erase(strip.source.begin() + i);
-    strip.s.erase(strip.s.begin() + i + 1);
+    strip.erase(i, i + 1);
     if (strip.marker > i) --strip.marker;
     out.push_back(successor_of(strip));
   }
@@ -216,10 +270,11 @@ std::vector<Successor> after_force(const ContactEvent& event, Strip strip) {
   const int j = event.place;
   if (strip.half && j == 0) {  // the touch at the mid-point opens
     strip.mid_touch = false;
-    if (strip.kinds.front() == Stretch::tail && strip.kinds.size() > 1) strip.kinds.front() = Stretch::gap;
+    if (strip.parts.front().kind == Stretch::tail && strip.parts.size() > 1)
+      strip.parts.front().kind = Stretch::gap;
     return {successor_of(strip)};
   }
-  const Stretch before = strip.kinds[j - 1], after = strip.kinds[j];
+  const Stretch before = strip.parts[j - 1].kind, after = strip.parts[j].kind;
   if (before == Stretch::line || after == Stretch::line) return {};
   merge(strip, j - 1, j, joined(before, after));
   return {successor_of(strip)};
@@ -231,23 +286,25 @@ std::vector<Successor> after_curvature(const ContactEvent& event, const Strip& s
   const int j = event.place;
   // A neighbouring gap that lies on the cylinder all along closes as a whole.
   for (const int i : {j - 1, j}) {
-    if (i < 0 || strip.kinds[i] != Stretch::gap) continue;
+    if (i < 0 || strip.parts[i].kind != Stretch::gap) continue;
     double widest = 0.0;
     for (Eigen::Index k = 0; k < profile.pieces[i].s.size(); ++k)
       widest = std::max(widest, std::abs(chain::gap(profile.pieces[i].r.col(k))));
     if (widest > 1e-5) continue;
     Strip closed = strip;
-    closed.kinds[i] = Stretch::line;
+    closed.parts[i].kind = Stretch::line;
     out.push_back(successor_of(closed));
   }
-  for (const double length : {1e-3, 1e-2}) {
+  for (const double length : {0.05, 0.02, 0.1}) {  // of the new line
     Strip flat = strip;
     if (strip.half && j == 0) {
-      split(flat, 0, length, Stretch::line, strip.kinds.front());
+      split(flat, 0, 0.5 * length, Stretch::line, strip.parts.front().kind);
       flat.mid_touch = false;
+      flat.parts[0].fresh = true;
     } else {
-      split(flat, j, strip.s[j] + length, Stretch::line, strip.kinds[j]);
-      flat.s[j] -= length;
+      split(flat, j, strip.s[j] + 0.5 * length, Stretch::line, strip.parts[j].kind);
+      flat.s[j] -= 0.5 * length;
+      flat.parts[j].fresh = true;
     }
     out.push_back(successor_of(flat));
   }
@@ -260,7 +317,7 @@ std::vector<Successor> after_graze(const ContactEvent& event, Strip strip) {
     strip.mid_touch = true;
     return {successor_of(strip)};
   }
-  const Stretch kind = strip.kinds[i];
+  const Stretch kind = strip.parts[i].kind;
   const bool left_tail = !strip.half && i == 0, right_tail = kind == Stretch::tail && !left_tail;
   split(strip, i, event.s, left_tail ? Stretch::tail : Stretch::gap,
         right_tail ? Stretch::tail : Stretch::gap);
@@ -271,16 +328,23 @@ std::vector<Successor> after_graze(const ContactEvent& event, Strip strip) {
 
 std::vector<Successor> successors(const ContactEvent& event, const Profile& profile, const Topology& topology,
                                   const std::vector<double>& s) {
+  constexpr double vanished = 1e-4;
   const Strip strip = strip_of(topology, s);
+  const auto vanishing_line = [&](int link) {
+    return link >= 0 && link < static_cast<int>(strip.parts.size()) &&
+           strip.parts[link].kind == Stretch::line && std::abs(s[link + 1] - s[link]) < vanished;
+  };
+  // With a line that shrinks to nothing its pressure (phi = pi) or its edges' forces may change sign: it leaves a touch.
+  const auto gone = [](int link) { return ContactEvent{Kind::length, link, 0.0, 0.0}; };
   switch (event.kind) {
-    case Kind::pressure: {
-      // A line that shrinks to nothing as its pressure vanishes (phi = pi) leaves a touch.
-      if (std::abs(s[event.place + 1] - s[event.place]) < 1e-4) return after_length(event, strip);
+    case Kind::pressure:
+      if (vanishing_line(event.place)) return after_length(gone(event.place), strip);
       return after_pressure(event, strip, profile.pieces[event.place]);
-    }
     case Kind::length:
       return after_length(event, strip);
     case Kind::force:
+      for (const int link : {event.place - 1, event.place})
+        if (vanishing_line(link)) return after_length(gone(link), strip);
       return after_force(event, strip);
     case Kind::curvature:
       return after_curvature(event, strip, profile);

@@ -283,12 +283,18 @@ double RodProblem::excess(const Vector& x, const Vector& p) {
   const double error = error_estimate(x, p);
   // A strut is as long as its unit, so its strains, and with them the moments, are some ten times its rotations.
   const double share = rod_.strut ? 0.03 : 0.3;
-  return std::max(error / goal, nodal_error_ / (share * std::min(goal, certificate_level)));
+  const double nodal = nodal_error_ > 3.0 * nodal_floor_ ? nodal_error_ : 0.0;
+  return std::max(error / goal, nodal / (share * std::min(goal, certificate_level)));
 }
 
 Vector RodProblem::refine(Vector x, const Vector& p, int rounds) {
   for (int k = 0; k < rounds; ++k) {
-    const double too_large = excess(x, p);
+    const double before = nodal_error_;
+    double too_large = excess(x, p);
+    if (k > 1 && nodal_error_ > 0.3 * before) {
+      nodal_floor_ = nodal_error_;
+      too_large = excess(x, p);
+    }
     if (too_large <= 1.0 && k > 0) return x;  // the first mesh is a guess and is always equidistributed
     const Loads at = loads(p);
     const double order = 2.0 * meshes_.back().stages;
@@ -305,13 +311,15 @@ Vector RodProblem::refine(Vector x, const Vector& p, int rounds) {
 std::optional<Vector> RodProblem::moved_to(std::vector<chain::ArcMesh> meshes, const Vector& x,
                                            const Vector& p, bool within) {
   const std::vector<chain::ArcMesh> old_meshes = std::exchange(meshes_, std::move(meshes));
-  const double old_error = last_error_;
+  const double old_error = last_error_, old_nodal = nodal_error_;
   const std::unique_ptr<chain::Chain> old = std::move(chain_);
   rebuild();
   Vector fresh = chain::transfer_state(*old, *chain_, x, loads(p));
   if (polish(fresh, p) >= 0) {
     const double too_large = excess(fresh, p);
-    if (!within || too_large <= 1.0) return fresh;
+    if (within && too_large <= 1.0) return fresh;
+    if (!within && (last_error_ > scene_.model.tolerance || nodal_error_ < 0.3 * old_nodal)) return fresh;
+    if (!within) nodal_floor_ = std::max(nodal_error_, old_nodal);  // rounding: no mesh helps
   }
   meshes_ = old_meshes;  // keep what works
   rebuild();
@@ -339,6 +347,7 @@ std::optional<Vector> RodProblem::adapt(const Vector& x, const Vector& p) {
 std::shared_ptr<continuation::Problem> RodProblem::clone() const {
   auto copy = std::make_shared<RodProblem>(scene_, spatial_, topology_, meshes_, keys_);
   copy->last_error_ = last_error_;
+  copy->nodal_floor_ = nodal_floor_;
   return copy;
 }
 

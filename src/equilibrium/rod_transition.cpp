@@ -1,18 +1,125 @@
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "windlass/equilibrium/contact_events.hpp"
+#include "windlass/equilibrium/opening.hpp"
 #include "windlass/equilibrium/rod_problem.hpp"
 
 namespace windlass::equilibrium {
 
 namespace {
 
+using Kind = ContactEvent::Kind;
+
+/// A state on another topology, and the parameters at which it is one.
+struct Entry {
+  std::shared_ptr<RodProblem> problem;
+  Vector x, p;
+};
+
 /// Can this state be the continuation? At the event itself forces vanish, to within rounding.
 bool admissible(const std::vector<ContactEvent>& events) {
-  for (const ContactEvent& event : events)
-    if (event.value < (event.kind == ContactEvent::Kind::length ? 1e-6 : -1e-6)) return false;
-  return true;
+  return std::all_of(events.begin(), events.end(), [](const ContactEvent& event) {
+    return event.value >= (event.kind == Kind::length ? 1e-6 : -1e-6);
+  });
+}
+
+/// Arclengths of a chain's joints; the ends of infinite tails where the profile ends.
+std::vector<double> joint_places(RodProblem& problem, const Vector& x, const Vector& p,
+                                 const chain::Profile& shape) {
+  std::vector<double> s;
+  const contact::Loads at = problem.loads(p);
+  for (int j = 0; j < problem.chain().joint_count(); ++j) {
+    const double here = problem.chain().arclength(x, at, j);
+    s.push_back(std::isinf(here) ? (here > 0.0 ? shape.end() : shape.begin()) : here);
+  }
+  return s;
+}
+
+/// The successor's problem, with the old shape as guess.
+Entry draft(const RodProblem& from, const Successor& next, const chain::Profile& shape, const Vector& p) {
+  constexpr int elements = 4;
+  std::vector<chain::ArcMesh> meshes;
+  for (int source : next.source)
+    meshes.push_back(from.meshes().empty() ? chain::ArcMesh{} : from.meshes()[source]);
+  for (auto& mesh : meshes)
+    if (mesh.nodes.size() <= elements) mesh.nodes = chain::uniform_mesh(elements);  // was a closed form
+  for (int link : next.opened) meshes[link].nodes = chain::uniform_mesh(elements);
+  auto problem =
+      std::make_shared<RodProblem>(from.scene_at(p), from.spatial(), next.topology, meshes, from.keys());
+  const Vector guess = chain::guess_state(problem->chain(), next.topology, problem->rod(), shape, next.s);
+  return {problem, guess, p};
+}
+
+bool holds(Entry& entry) {
+  return admissible(contact_events(entry.problem->profile(entry.x, entry.p), entry.problem->topology()));
+}
+
+/// Solves for the successor right here, or a little to either side, with its contacts intact.
+bool settle_beside(Entry& entry) {
+  const Vector p = entry.p, guess = entry.x;
+  for (const double offset : {0.0, -0.02, 0.02, -0.008, 0.008, -0.002, 0.002}) {
+    entry.p = p;
+    entry.x = guess;
+    entry.p(0) += offset * std::max(1.0, std::abs(p(0)));
+    try {
+      if (entry.problem->polish(entry.x, entry.p, 18) < 0) continue;
+      if (holds(entry)) return true;
+    } catch (const std::exception&) {  // a length or tension left its domain: not this one
+    }
+  }
+  return false;
+}
+
+double length_of(Entry& entry, int link) {
+  const contact::Loads at = entry.problem->loads(entry.p);
+  return entry.problem->chain().arclength(entry.x, at, link + 1) -
+         entry.problem->chain().arclength(entry.x, at, link);
+}
+
+/// Away from the event, as far as the contacts hold: near it everything but the length is determined badly.
+void lengthen(Entry& entry, int link) {
+  constexpr double enough = 0.3, factor = 1.5;
+  for (double length = factor * length_of(entry, link); length < factor * enough; length *= factor) {
+    Entry longer = entry;
+    try {
+      if (!solve_at_length(*entry.problem, longer.x, longer.p, link, length) || !holds(longer)) return;
+    } catch (const std::exception&) {
+      return;
+    }
+    entry = longer;
+  }
+}
+
+/// Solves for a successor with opened arcs. Where the pressure is lost in several places almost at once, the state with
+/// one gap open has suction in another: that opens too, and so on.
+/// @param opened  links of `entry`, the one that keeps its length first
+std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, int depth) {
+  settle_shape(*entry.problem, entry.x, entry.p, opened);
+  if (!solve_at_length(*entry.problem, entry.x, entry.p, opened.front(), length_of(entry, opened.front())))
+    return std::nullopt;
+  const chain::Profile shape = entry.problem->profile(entry.x, entry.p);
+  const Topology& topology = entry.problem->topology();
+  const std::vector<ContactEvent> events = contact_events(shape, topology);
+  if (admissible(events)) {
+    lengthen(entry, opened.front());
+    return entry;
+  }
+  const auto worst = std::min_element(events.begin(), events.end(),
+                                      [](const auto& a, const auto& b) { return a.value < b.value; });
+  if (depth == 0 || worst->kind != Kind::pressure) return std::nullopt;
+  const std::vector<double> s = joint_places(*entry.problem, entry.x, entry.p, shape);
+  for (const Successor& next : successors(*worst, shape, topology, s)) {
+    if (next.opened.empty()) continue;
+    std::vector<int> all;
+    for (const int link : opened)
+      all.push_back(
+          static_cast<int>(std::find(next.source.begin(), next.source.end(), link) - next.source.begin()));
+    all.insert(all.end(), next.opened.begin(), next.opened.end());
+    if (auto found = open_in_turn(draft(*entry.problem, next, shape, entry.p), all, depth - 1)) return found;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -27,16 +134,11 @@ std::vector<continuation::EventFunction> RodProblem::events(const Vector& x, con
 
 std::optional<continuation::Transition> RodProblem::transition(std::size_t which, const Vector& x,
                                                                const Vector& p) {
-  const contact::Loads at = loads(p);
+  constexpr int most_together = 5;
   const chain::Profile shape = profile(x, p);
   const ContactEvent event = contact_events(shape, topology_).at(which);
-  std::vector<double> s;
-  for (int j = 0; j < chain_->joint_count(); ++j) {
-    const double here = chain_->arclength(x, at, j);
-    s.push_back(std::isinf(here) ? (here > 0.0 ? shape.end() : shape.begin()) : here);
-  }
   std::optional<continuation::Transition> first;
-  for (const Successor& next : successors(event, shape, topology_, s)) {
+  for (const Successor& next : successors(event, shape, topology_, joint_places(*this, x, p, shape))) {
     continuation::Transition transition;
     transition.before = topology_.text();
     transition.after = next.topology.text();
@@ -44,29 +146,25 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
       transition.after = "no contact";
       return transition;  // null problem: the branch ends here
     }
-    std::vector<chain::ArcMesh> meshes;
-    for (int source : next.source) meshes.push_back(meshes_.empty() ? chain::ArcMesh{} : meshes_[source]);
-    for (std::size_t i = 0; i < meshes.size(); ++i)
-      if (meshes[i].nodes.size() < 5) meshes[i].nodes = chain::uniform_mesh(4);  // was a closed form, or tiny
-    auto problem = std::make_shared<RodProblem>(scene_, spatial_, next.topology, meshes, keys_);
-    Vector guess = chain::guess_state(problem->chain(), next.topology, rod_, shape, next.s);
-    transition.state = guess;
-    transition.problem = problem;
+    Entry entry = draft(*this, next, shape, p);
+    transition.state = entry.x;
+    transition.problem = entry.problem;
     if (!first) first = transition;
-    // Prefer a successor that has a solution right here, or (a new arc has no length at the event itself) a little to
-    // either side of it, with its contacts intact.
-    for (const double offset : {0.0, -0.02, 0.02, -0.008, 0.008, -0.002, 0.002}) {
-      Vector beside = p, y = guess;
-      beside(0) += offset * std::max(1.0, std::abs(p(0)));
+    bool settled = false;
+    if (next.opened.empty()) {
+      settled = settle_beside(entry);
+    } else {
       try {
-        if (problem->polish(y, beside, 18) < 0) continue;
-        if (!admissible(contact_events(problem->profile(y, beside), problem->topology()))) continue;
-        transition.state = y;
-        if (offset != 0.0) transition.p = beside;
-        return transition;
+        if (auto found = open_in_turn(entry, next.opened, most_together)) entry = *found, settled = true;
       } catch (const std::exception&) {  // a length or tension left its domain: not this one
       }
     }
+    if (!settled) continue;
+    transition.problem = entry.problem;
+    transition.after = entry.problem->topology().text();
+    transition.state = entry.x;
+    if (entry.p != p) transition.p = entry.p;
+    return transition;
   }
   return first;
 }

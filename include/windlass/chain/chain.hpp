@@ -45,6 +45,8 @@ class Chain {
   Eigen::Index dense_size() const { return dense_size_; }
   /// Length of the leading part of an increment that holds joint coordinates and arclengths.
   Eigen::Index geometric_size() const { return geometric_size_; }
+  /// Row of a joint's location condition, and place of its arclength in an increment; −1: it does not locate itself.
+  Eigen::Index arclength_row(int joint) const { return numbering_.arclength[joint]; }
   int joint_count() const { return static_cast<int>(joints_.size()); }
   int link_count() const { return static_cast<int>(links_.size()); }
   const Joint& joint(int j) const { return *joints_[j]; }

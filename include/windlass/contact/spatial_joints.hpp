@@ -65,6 +65,7 @@ class Edge final : public VectorJoint {
   double angle(const double* w) const override { return w[0]; }
   double height(const double* w) const override { return w[1]; }
   void adopt(const Place& place, double* w) const override;
+  static double& twist(double* w) { return w[3]; }
 
  private:
   Side line_;

@@ -35,6 +35,7 @@ struct Successor {
   chain::Topology topology;
   std::vector<double> s;      ///< one a joint of the new chain
   std::vector<int> source;    ///< link of the old chain whose mesh each new arc inherits
+  std::vector<int> opened;    ///< links that have no length at the event itself
   bool nothing_left = false;  ///< no contact remains: the branch ends
 };
 

@@ -106,6 +106,7 @@ class RodProblem final : public continuation::Problem {
   int index_ = -1;                                ///< last count at a sound point
   double last_error_ = 0.0;                       ///< relative, of the target
   double nodal_error_ = 0.0;                      ///< of frames and places at element ends
+  double nodal_floor_ = 0.0;                      ///< what refinement did not reduce: rounding
 };
 
 }  // namespace windlass::equilibrium

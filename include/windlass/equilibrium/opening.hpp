@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "windlass/equilibrium/rod_problem.hpp"
+
+/// Entering a contact topology that has an arc the one before did not have.
+///
+/// Where a gap of length ℓ has just opened inside a line contact, its edge forces go like ℓ³ and its height like ℓ⁶,
+/// while ℓ itself goes like the square root of the distance to the event: at fixed load Newton has next to no domain
+/// of attraction. With ℓ prescribed and the load free the same equations are nearly linear.
+namespace windlass::equilibrium {
+
+/// Lets the shape adjust while the edges of the opened links stay where they are, their location conditions waived.
+void settle_shape(RodProblem& problem, Vector& x, Vector& p, const std::vector<int>& opened);
+
+/// Solves for the state in which the link has the given length, and for p(0) with it.
+/// @returns whether Newton converged; x and p are the solution then, and unspecified otherwise
+bool solve_at_length(RodProblem& problem, Vector& x, Vector& p, int link, double length);
+
+}  // namespace windlass::equilibrium

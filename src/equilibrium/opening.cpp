@@ -1,0 +1,101 @@
+#include "windlass/equilibrium/opening.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace windlass::equilibrium {
+
+namespace {
+
+using Eigen::MatrixXd;
+
+/// Borders of one Newton system: `count` columns and rows added to the chain's own.
+struct Borders {
+  Borders(Eigen::Index size, Eigen::Index count)
+      : b(MatrixXd::Zero(size, count)), c(MatrixXd::Zero(size, count)) {}
+  MatrixXd b, c;
+};
+
+/// One slack an edge stands in for its location condition, and its arclength does not move: as many unknowns as rows.
+Borders hold_edges(const chain::Chain& chain, const std::vector<int>& opened) {
+  std::vector<int> edges;
+  for (const int link : opened)
+    for (const int joint : {link, link + 1})
+      if (chain.joint(joint).kind() == contact::JointKind::edge) edges.push_back(joint);
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  Borders held(chain.size(), static_cast<Eigen::Index>(edges.size()));
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    const Eigen::Index row = chain.arclength_row(edges[k]);
+    held.b(row, static_cast<Eigen::Index>(k)) = held.c(row, static_cast<Eigen::Index>(k)) = 1.0;
+  }
+  return held;
+}
+
+/// p(0) is one more unknown, the length of the link one more equation.
+Borders fix_length(RodProblem& problem, const Vector& x, const Vector& p, int link) {
+  const chain::Chain& chain = problem.chain();
+  Borders held(chain.size(), 1);
+  held.b.col(0) = problem.parameter_derivative(x, p, 0);
+  const Eigen::Index begin = chain.arclength_row(link), end = chain.arclength_row(link + 1);
+  if (begin >= 0) held.c(begin, 0) = -1.0;
+  if (end >= 0) held.c(end, 0) = 1.0;
+  return held;
+}
+
+/// Part of a step after which no arc between contacts has lost more than half its length.
+double longest_part(const chain::Chain& chain, const Vector& x, const contact::Loads& at, const Vector& dx) {
+  double part = std::min(1.0, 0.6 / std::max(dx.cwiseAbs().maxCoeff(), 1e-300));
+  const auto shift = [&](int joint) {
+    const Eigen::Index row = chain.arclength_row(joint);
+    return row >= 0 ? dx(row) : 0.0;
+  };
+  for (int i = 0; i < chain.link_count(); ++i) {
+    const double length = chain.arclength(x, at, i + 1) - chain.arclength(x, at, i);
+    const double change = shift(i + 1) - shift(i);
+    if (length > 0.0 && change < 0.0) part = std::min(part, 0.5 * length / -change);
+  }
+  return part;
+}
+
+/// One Newton step, cut where an arc would lose more than half its length. @returns the largest uncut increment
+double newton_step(RodProblem& problem, Vector& x, Vector& p, const Borders& borders, const Vector& goal,
+                   bool moves_p) {
+  chain::Chain& chain = problem.chain();
+  const contact::Loads at = problem.loads(p);
+  const Eigen::Index size = chain.size(), count = borders.b.cols();
+  chain.factor(x, at, borders.b, borders.c, MatrixXd::Zero(count, count));
+  const Vector solution = chain.solve(-chain.residual(x, at), goal);
+  const Vector dx = solution.head(size);
+  if (!dx.allFinite()) throw std::runtime_error("Newton's increment is not finite");
+  const double part = longest_part(chain, x, at, dx);
+  x = chain.retract(x, part * dx);
+  if (moves_p) p(0) += part * solution(size);
+  return dx.cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+void settle_shape(RodProblem& problem, Vector& x, Vector& p, const std::vector<int>& opened) {
+  const Borders borders = hold_edges(problem.chain(), opened);
+  const Vector goal = Vector::Zero(borders.b.cols());
+  for (int k = 0; k < 4; ++k)
+    if (newton_step(problem, x, p, borders, goal, false) < 1e-8) return;
+}
+
+bool solve_at_length(RodProblem& problem, Vector& x, Vector& p, int link, double length) {
+  double last = 1e300;
+  for (int k = 0; k < 20; ++k) {
+    const contact::Loads at = problem.loads(p);
+    const double now = problem.chain().arclength(x, at, link + 1) - problem.chain().arclength(x, at, link);
+    const Vector goal = Vector::Constant(1, length - now);
+    const double step = newton_step(problem, x, p, fix_length(problem, x, p, link), goal, true);
+    // Converged, or as far as rounding lets a short arc: the increment is tiny and no longer falls.
+    if (step < 1e-12 || (step < 1e-7 && step > 0.3 * last)) return true;
+    last = step;
+  }
+  return false;
+}
+
+}  // namespace windlass::equilibrium
