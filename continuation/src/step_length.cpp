@@ -22,16 +22,23 @@ void StepLength::accepted(int iterations, double contraction) {
   if (contraction > 0.0) factor = std::min(factor, std::sqrt(target_contraction_ / contraction));
   factor = std::clamp(factor, 0.5, after_rejection_ ? 1.0 : 2.0);
   after_rejection_ = false;
-  reset(step_ * factor);
+  set(step_ * factor);
+  if (step_ >= usual_) usual_ = 0.0;
 }
 
 bool StepLength::rejected() {
   if (0.5 * step_ < step_min_) return false;
+  usual_ = usual();
   step_ *= 0.5;
   after_rejection_ = true;
   return true;
 }
 
-void StepLength::reset(double step) { step_ = std::clamp(step, step_min_, step_max_); }
+void StepLength::reset(double step) {
+  set(step);
+  usual_ = 0.0;
+}
+
+void StepLength::set(double step) { step_ = std::clamp(step, step_min_, step_max_); }
 
 }  // namespace continuation

@@ -72,6 +72,13 @@ void Walker::pass(Point event, std::size_t which, const std::string& name, int d
   if (!transition->problem) return finish(End::Kind::event, "event " + name + " ends the branch");
   if (!enter(*transition, direction, name, failure))
     return finish(End::Kind::lost, "event " + name + ": " + failure);
+  if (transition->precision >= 0.0) {
+    event.problem = transition->problem->clone();
+    event.x = transition->state;
+    event.p = transition->p;
+    event.tangent = state_.tangent;
+    event.precision = transition->precision;
+  }
   event.index_after = state_.index;
   event.next_problem = state_.problem->clone();
   event.next_x = state_.x;
@@ -130,7 +137,7 @@ bool Walker::enter(const Transition& transition, int direction, const std::strin
         state_.mesh_changed = true;
         state_.previous_tangent = state_.tangent;
         // A short first step separates the zero just passed from the next event.
-        step_length_.reset(0.1 * step_length_.current());
+        step_length_.reset(0.1 * step_length_.usual());
         return true;
       }
     } catch (const std::domain_error& error) {

@@ -85,7 +85,8 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
     const double length = piece.s(piece.s.size() - 1) - piece.s(0);
     const bool at_mid = topology.half && i == 0;
     if (piece.stretch == Stretch::line) events.push_back(least_pressure(piece, i));
-    if (piece.stretch != Stretch::tail) events.push_back({Kind::length, i, length, piece.s(0)});
+    if (piece.stretch != Stretch::tail)
+      events.push_back({Kind::length, i, length - least_length, piece.s(0)});
     if (piece.stretch != Stretch::line) events.push_back(graze(piece, i, at_mid && !topology.mid_touch));
   }
   for (const Contact& c : profile.contacts) {
@@ -328,7 +329,7 @@ std::vector<Successor> after_graze(const ContactEvent& event, Strip strip) {
 
 std::vector<Successor> successors(const ContactEvent& event, const Profile& profile, const Topology& topology,
                                   const std::vector<double>& s) {
-  constexpr double vanished = 1e-4;
+  constexpr double vanished = 2.0 * least_length;
   const Strip strip = strip_of(topology, s);
   const auto vanishing_line = [&](int link) {
     return link >= 0 && link < static_cast<int>(strip.parts.size()) &&

@@ -56,6 +56,40 @@ bool holds(Entry& entry) {
   return admissible(contact_events(entry.problem->profile(entry.x, entry.p), entry.problem->topology()));
 }
 
+/// From a state whose arc about s has nearly vanished to the one where it does, the event itself. In the topology without
+/// the arc that is a zero of the curvature of the touch at s, or of the pressure there.
+/// @returns the precision of p(0), nothing if there is no such zero near
+std::optional<double> locate_from_beyond(Entry& entry, double s) {
+  const auto value_at = [&](Entry& at) -> std::optional<double> {
+    if (at.problem->polish(at.x, at.p, 18) < 0) return std::nullopt;
+    const chain::Profile shape = at.problem->profile(at.x, at.p);
+    std::optional<double> pressure;
+    for (const ContactEvent& event : contact_events(shape, at.problem->topology())) {
+      if (event.kind == Kind::curvature && std::abs(event.s - s) < 10.0 * least_length) return event.value;
+      if (event.kind != Kind::pressure) continue;
+      const Eigen::VectorXd& places = shape.pieces[event.place].s;
+      if (places(0) - least_length < s && s < places(places.size() - 1) + least_length)
+        pressure = event.value;
+    }
+    return pressure;
+  };
+  const double scale = std::max(1.0, std::abs(entry.p(0))), start = entry.p(0);
+  Entry other = entry;
+  other.p(0) += 1e-5 * scale;
+  std::optional<double> last = value_at(other), value = value_at(entry);
+  double last_p = other.p(0);
+  for (int k = 0; k < 20 && last && value && *value != *last; ++k) {
+    const double step = -*value * (entry.p(0) - last_p) / (*value - *last);
+    if (std::abs(entry.p(0) + step - start) > 0.05 * scale) return std::nullopt;
+    last_p = entry.p(0);
+    last = value;
+    entry.p(0) += step;
+    value = value_at(entry);
+    if (std::abs(step) < 1e-11 * scale) return value ? std::optional(std::abs(step)) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
 /// Solves for the successor right here, or a little to either side, with its contacts intact.
 bool settle_beside(Entry& entry) {
   const Vector p = entry.p, guess = entry.x;
@@ -122,6 +156,29 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, i
   return std::nullopt;
 }
 
+/// Solves for the successor of an event. @param precision  set where the state found is the event itself
+std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const Successor& next,
+                           double& precision) {
+  constexpr int most_together = 5;
+  try {
+    Entry exact = guess;
+    const auto found =
+        event.kind == Kind::length ? locate_from_beyond(exact, event.s + 0.5 * least_length) : std::nullopt;
+    if (found && holds(exact)) {
+      precision = *found;
+      return exact;
+    }
+  } catch (const std::exception&) {  // a length or tension left its domain
+  }
+  try {
+    if (!next.opened.empty()) return open_in_turn(guess, next.opened, most_together);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+  Entry beside = guess;
+  return settle_beside(beside) ? std::optional(beside) : std::nullopt;
+}
+
 }  // namespace
 
 std::vector<continuation::EventFunction> RodProblem::events(const Vector& x, const Vector& p) {
@@ -134,7 +191,6 @@ std::vector<continuation::EventFunction> RodProblem::events(const Vector& x, con
 
 std::optional<continuation::Transition> RodProblem::transition(std::size_t which, const Vector& x,
                                                                const Vector& p) {
-  constexpr int most_together = 5;
   const chain::Profile shape = profile(x, p);
   const ContactEvent event = contact_events(shape, topology_).at(which);
   std::optional<continuation::Transition> first;
@@ -146,24 +202,16 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
       transition.after = "no contact";
       return transition;  // null problem: the branch ends here
     }
-    Entry entry = draft(*this, next, shape, p);
+    const Entry entry = draft(*this, next, shape, p);
     transition.state = entry.x;
     transition.problem = entry.problem;
     if (!first) first = transition;
-    bool settled = false;
-    if (next.opened.empty()) {
-      settled = settle_beside(entry);
-    } else {
-      try {
-        if (auto found = open_in_turn(entry, next.opened, most_together)) entry = *found, settled = true;
-      } catch (const std::exception&) {  // a length or tension left its domain: not this one
-      }
-    }
-    if (!settled) continue;
-    transition.problem = entry.problem;
-    transition.after = entry.problem->topology().text();
-    transition.state = entry.x;
-    if (entry.p != p) transition.p = entry.p;
+    const std::optional<Entry> found = enter(entry, event, next, transition.precision);
+    if (!found) continue;
+    transition.problem = found->problem;
+    transition.after = found->problem->topology().text();
+    transition.state = found->x;
+    if (found->p != p || transition.precision >= 0.0) transition.p = found->p;
     return transition;
   }
   return first;

@@ -19,6 +19,8 @@ struct Transition {
   Vector state;                      ///< a guess for the new problem, to be corrected by the caller
   std::string before, after;         ///< descriptions of the two sides, e.g. contact topologies
   Vector p;  ///< where `state` solves, if beside the event (where a new part has no size yet)
+  double precision =
+      -1.0;  ///< of p, if `state` at p is the event itself, located from beyond; negative: it is not
 };
 
 /// A scalar that must keep its sign along a regular branch.

@@ -22,6 +22,10 @@ class StepLength {
   double current() const { return step_; }
   bool after_rejection() const { return after_rejection_; }
 
+  /// The step before a run of rejections shortened it, until it has recovered: what suits the branch beyond an event
+  /// that was hard to reach.
+  double usual() const { return usual_ > step_ ? usual_ : step_; }
+
   /// @param iterations   N, corrections of the accepted step
   /// @param contraction  θ of the accepted step; 0 when there were fewer than two corrections
   void accepted(int iterations, double contraction);
@@ -33,7 +37,10 @@ class StepLength {
   void reset(double step);
 
  private:
+  void set(double step);
+
   double step_, step_min_, step_max_, target_contraction_;
+  double usual_ = 0.0;
   int target_newton_;
   bool after_rejection_ = false;
 };

@@ -12,11 +12,15 @@
 /// | event | positive quantity | what follows |
 /// |---|---|---|
 /// | pressure | least pressure on a line contact | the line opens: a gap inside it, or all of it |
-/// | length | length of a line contact, or of a gap between contacts | a touch in its place |
+/// | length | length of a line contact, or of a gap between contacts, less `least_length` | a touch in its place |
 /// | force | point force at a touch or an edge | the touch is lost (an edge: no successor is known) |
 /// | curvature | g'' at a touch | the touch flattens into a line |
 /// | graze | least gap inside a free arc | a new touch |
 namespace windlass::equilibrium {
+
+/// Forces of an arc of length ℓ carry rounding errors like 1/ℓ: it gives way to the topology without it this early, and
+/// the event itself is located there.
+inline constexpr double least_length = 1e-3;
 
 struct ContactEvent {
   enum class Kind { pressure, length, force, curvature, graze };
