@@ -73,7 +73,10 @@ class Newton {
       if (k > 0) {
         double contraction = size_ / previous;
         if (k == 1) report_.contraction = contraction;
-        if (size_ > tolerance && size_ * contraction > tolerance) {  // one more chord step will not do
+        // Three more chord steps will not do, or they hardly converge.
+        const bool slow = size_ * std::pow(contraction, 3) > tolerance ||
+                          (k > 1 && contraction > 0.1 && size_ * contraction > tolerance);
+        if (size_ > tolerance && slow) {
           factor();
           direction();
           fresh = true;

@@ -62,15 +62,13 @@ double longest_part(const chain::Chain& chain, const Vector& x, const contact::L
 /// One Newton step, cut where an arc would lose more than half its length. @returns the largest uncut increment
 double newton_step(RodProblem& problem, Vector& x, Vector& p, const Borders& borders, const Vector& goal,
                    bool moves_p) {
-  chain::Chain& chain = problem.chain();
-  const contact::Loads at = problem.loads(p);
-  const Eigen::Index size = chain.size(), count = borders.b.cols();
-  chain.factor(x, at, borders.b, borders.c, MatrixXd::Zero(count, count));
-  const Vector solution = chain.solve(-chain.residual(x, at), goal);
+  const Eigen::Index size = problem.size(), count = borders.b.cols();
+  problem.factor(x, p, borders.b, borders.c, MatrixXd::Zero(count, count));
+  const Vector solution = problem.solve(-problem.residual(x, p), goal);
   const Vector dx = solution.head(size);
   if (!dx.allFinite()) throw std::runtime_error("Newton's increment is not finite");
-  const double part = longest_part(chain, x, at, dx);
-  x = chain.retract(x, part * dx);
+  const double part = longest_part(problem.chain(), x, problem.loads(p), dx);
+  x = problem.retract(x, part * dx);
   if (moves_p) p(0) += part * solution(size);
   return dx.cwiseAbs().maxCoeff();
 }
