@@ -66,7 +66,7 @@ void fields(auto& a, Is<PendingBranch> auto& pending) {
 
 void fields(auto& a, Is<WalkState> auto& walk) {
   a("problem", walk.problem), a("x", walk.x), a("p", walk.p), a("tangent", walk.tangent);
-  a("previous_tangent", walk.previous_tangent), a("step", walk.step);
+  a("previous_tangent", walk.previous_tangent), a("step", walk.step), a("usual_step", walk.usual_step);
   a("after_rejection", walk.after_rejection), a("index", walk.index), a("determinant", walk.determinant);
   a("events", walk.events), a("previous_events", walk.previous_events), a("last_ds", walk.last_ds);
   a("signs", walk.signs), a("path_length", walk.path_length), a("points", walk.points);

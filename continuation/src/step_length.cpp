@@ -12,8 +12,10 @@ StepLength::StepLength(const Options& options)
       target_contraction_(options.target_contraction),
       target_newton_(options.target_newton) {}
 
-StepLength::StepLength(const Options& options, double current, bool after_rejection) : StepLength(options) {
+StepLength::StepLength(const Options& options, double current, double usual, bool after_rejection)
+    : StepLength(options) {
   step_ = current;
+  usual_ = usual;
   after_rejection_ = after_rejection;
 }
 

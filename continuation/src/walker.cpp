@@ -46,7 +46,8 @@ Walker::Walker(WalkState state, const Options& options)
     throw std::invalid_argument("continuation: parameter " + std::to_string(options_.parameter) + " of " +
                                 std::to_string(state_.p.size()) + " parameters does not exist");
   }
-  if (state_.started) step_length_ = StepLength(options, state_.step, state_.after_rejection);
+  if (state_.started)
+    step_length_ = StepLength(options, state_.step, state_.usual_step, state_.after_rejection);
 }
 
 Walker::Walker(std::shared_ptr<Problem> problem, Vector x, Vector p, const Options& options)
@@ -67,6 +68,7 @@ WalkState Walker::state() const {
   assert(at_rest());
   WalkState state = state_;
   state.step = step_length_.current();
+  state.usual_step = step_length_.usual();
   state.after_rejection = step_length_.after_rejection();
   return state;
 }

@@ -8,11 +8,14 @@ continuation::ProblemCodec rod_codec(const scene::Scene& scene, const std::vecto
   return {[](const continuation::Problem& problem) -> nlohmann::json {
             const auto& rod = dynamic_cast<const RodProblem&>(problem);
             const RodProblem::Memory memory = rod.memory();
-            return {{"chain", chain_of(rod)}, {"index", memory.index}, {"error", memory.error}};
+            return {{"chain", chain_of(rod)},
+                    {"index", memory.index},
+                    {"error", memory.error},
+                    {"nodal_floor", memory.nodal_floor}};
           },
           [scene, keys](const nlohmann::json& data) -> std::shared_ptr<continuation::Problem> {
             const auto rod = rebuild(scene, data.at("chain").get<std::string>(), keys);
-            rod->remember({data.at("index"), data.at("error")});
+            rod->remember({data.at("index"), data.at("error"), data.at("nodal_floor")});
             return rod;
           }};
 }

@@ -17,7 +17,7 @@ class StepLength {
  public:
   explicit StepLength(const Options& options);
   /// Goes on from where another one was.
-  StepLength(const Options& options, double current, bool after_rejection);
+  StepLength(const Options& options, double current, double usual, bool after_rejection);
 
   double current() const { return step_; }
   bool after_rejection() const { return after_rejection_; }

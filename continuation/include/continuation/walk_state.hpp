@@ -15,6 +15,7 @@ struct WalkState {
   Tangent tangent;           ///< unit, in the direction of travel
   Tangent previous_tangent;  ///< at the point before
   double step = 0.0;         ///< of StepLength
+  double usual_step = 0.0;   ///< of StepLength
   bool after_rejection = false;
   int index = -1, determinant = 0;                     ///< at (x, p); −1 and 0: unknown
   std::vector<EventFunction> events, previous_events;  ///< at (x, p) and at the point before

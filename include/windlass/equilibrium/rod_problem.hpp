@@ -74,10 +74,14 @@ class RodProblem final : public continuation::Problem {
   /// What earlier calls leave behind for later ones; a copy needs it to answer as this problem would.
   struct Memory {
     int index = -1;
-    double error = 0.0;
+    double error = 0.0, nodal_floor = 0.0;
   };
-  Memory memory() const { return {index_, last_error_}; }
-  void remember(const Memory& memory) { index_ = memory.index, last_error_ = memory.error; }
+  Memory memory() const { return {index_, last_error_, nodal_floor_}; }
+  void remember(const Memory& memory) {
+    index_ = memory.index;
+    last_error_ = memory.error;
+    nodal_floor_ = memory.nodal_floor;
+  }
 
   /// Quantity whose relative error is controlled: R_tot, or a strut's end force.
   double target(const chain::Chain& chain, const Vector& x, const contact::Loads& loads) const;
