@@ -175,6 +175,7 @@ chain::Profile RodProblem::profile(const Vector& x, const Vector& p) {
 
 int RodProblem::polish(Vector& x, const Vector& p, int most) {
   factored_x_.resize(0);
+  if (size() == 0) return 0;  // one touch between infinite tails: nothing is unknown
   const Loads at = loads(p);
   const Eigen::MatrixXd none(chain_->size(), 0), corner(0, 0);
   double last = 1e300;
