@@ -78,6 +78,7 @@ class Windlass:
         words = [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]
         out = self.folder / "run"
         done = self.call(command, ROOT / "data" / "scenes" / scene, *words, "--out", out, "--force", "--quiet",
+                         "--no-eigenvalues",
                          prefix=prefix)
         if done.returncode not in (0, 2):
             sys.exit(done.stderr)

@@ -53,7 +53,7 @@ def clamped_thrust(shortening):
 
     def mean(k2):
         a, b, c2, total, weight = 1.0, math.sqrt(1.0 - k2), k2, 0.5 * k2, 1.0
-        while c2 > 1e-34:
+        for _ in range(8):  # converges quadratically
             a, b, c2 = 0.5 * (a + b), math.sqrt(a * b), (0.5 * (a - b)) ** 2
             total += weight * c2
             weight *= 2.0
