@@ -71,7 +71,7 @@ void fields(auto& a, Is<WalkState> auto& walk) {
   a("events", walk.events), a("previous_events", walk.previous_events), a("last_ds", walk.last_ds);
   a("signs", walk.signs), a("path_length", walk.path_length), a("points", walk.points);
   a("events_in_place", walk.events_in_place), a("started", walk.started);
-  a("has_tangent", walk.has_tangent), a("adapt_pending", walk.adapt_pending);
+  a("has_tangent", walk.has_tangent);
   a("mesh_changed", walk.mesh_changed), a("start_x", walk.start_x);
   a("start_fingerprint", walk.start_fingerprint), a("start_parameter", walk.start_parameter);
   a("start_slope", walk.start_slope), a("end", walk.end);

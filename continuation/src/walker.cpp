@@ -178,8 +178,6 @@ void Walker::advance() {
       return;
     }
   }
-  adapt();
-  if (state_.end) return;
   for (;;) {
     std::string failure;
     if (advance_once(failure)) return;

@@ -127,21 +127,22 @@ bool Walker::advance_once(std::string& failure) {
   settle(segment, *end);
   ++state_.points;
   state_.events_in_place = 0;
+  if (reason) {
+    point.type = PointType::end;
+    pending_end_ = reason;
+  } else {
+    step_length_.accepted(report.iterations, report.contraction);
+    // A start at a fold is never crossed transversely in p: its neighbour stands in for it.
+    if (state_.points == 2 && std::abs(state_.start_slope) < 0.1) remember_start();
+  }
+  adapt();  // first, so that every point is yielded on a discretisation that suits it
+  if (state_.end) return true;
   point.problem = state_.problem;
   point.x = state_.x;
   point.p = state_.p;
   point.tangent = state_.tangent;
   point.index = point.index_after = state_.index;
   point.path_length = state_.path_length;
-  if (reason) {
-    point.type = PointType::end;
-    pending_end_ = reason;
-  } else {
-    step_length_.accepted(report.iterations, report.contraction);
-    state_.adapt_pending = true;
-    // A start at a fold is never crossed transversely in p: its neighbour stands in for it.
-    if (state_.points == 2 && std::abs(state_.start_slope) < 0.1) remember_start();
-  }
   queue_.push_back(std::move(point));
   return true;
 }

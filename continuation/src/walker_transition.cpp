@@ -25,12 +25,9 @@ Borders fixed_parameter(const Problem& problem, const Options& options) {
 }  // namespace
 
 void Walker::adapt() {
-  if (!std::exchange(state_.adapt_pending, false) || !options_.adapt) return;
+  if (!options_.adapt) return;
   // The new tangent is oriented by its parameter component, which says nothing next to a fold.
-  if (std::abs(state_.tangent.p) < 2.0 * std::abs(state_.tangent.p - state_.previous_tangent.p)) {
-    state_.adapt_pending = true;
-    return;
-  }
+  if (std::abs(state_.tangent.p) < 2.0 * std::abs(state_.tangent.p - state_.previous_tangent.p)) return;
   try {
     const std::optional<Vector> adapted = state_.problem->adapt(state_.x, state_.p);
     if (!adapted) return;
@@ -40,7 +37,11 @@ void Walker::adapt() {
     Sample* sample = segment.at(0.0, true);
     if (!sample) return lose("after adapting the discretisation: " + segment.failure());
     segment.add_events(*sample);
+    const double last_ds = state_.last_ds;
+    std::vector<EventFunction> previous_events = std::move(state_.previous_events);
     settle(segment, *sample);
+    state_.last_ds = last_ds;  // the same point: the rates of events still run from the one before
+    state_.previous_events = std::move(previous_events);
     state_.mesh_changed = true;
     state_.previous_tangent = state_.tangent;
   } catch (const std::domain_error& error) {

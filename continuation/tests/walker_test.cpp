@@ -276,6 +276,25 @@ BOOST_AUTO_TEST_CASE(adaptation_changes_the_size) {
   BOOST_TEST(changed);
 }
 
+BOOST_AUTO_TEST_CASE(points_are_adapted_before_they_are_yielded) {
+  auto problem = std::make_shared<AlgebraicProblem>(
+      1, [](const Vector& x, const Vector& p) { return Vector((x.array().cube() - p[0] + 1.0).matrix()); });
+  double adapted_at = 2.0;
+  problem->adapt_of = [&adapted_at](AlgebraicProblem& self, const Vector& x,
+                                    const Vector& p) -> std::optional<Vector> {
+    adapted_at = p[0];
+    self.set_size(p[0] < 5.0 ? 2 : 3);
+    return Vector::Constant(self.size(), x[0]);
+  };
+  Walker walker(problem, vector({1.0}), vector({2.0}), options_to(9.0));
+  BOOST_TEST(walker.step()->x.size() == 1);  // the start is the caller's
+  while (const auto point = walker.step()) {
+    BOOST_TEST(std::abs(point->p[0] - adapted_at) < 1e-9);  // corrected once more on the new discretisation
+    BOOST_TEST(point->x.size() == (point->p[0] < 5.0 ? 2 : 3));
+    BOOST_TEST(point->problem->size() == point->x.size());
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
 
 }  // namespace

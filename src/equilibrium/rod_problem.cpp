@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "windlass/scene/keys.hpp"
@@ -74,6 +75,7 @@ void RodProblem::rebuild() {
   chain_ = chain::build_chain(rod_, topology_, meshes_);
   finer_.reset();
   factored_x_.resize(0);
+  estimated_x_.resize(0);
 }
 
 Loads RodProblem::loads(const Vector& p) {
@@ -201,7 +203,10 @@ double RodProblem::target(const chain::Chain& chain, const Vector& x, const Load
 }
 
 double RodProblem::error_estimate(const Vector& x, const Vector& p) {
-  const Loads at = loads(p);
+  const Loads at = loads(p);  // may rebuild the chain
+  if (estimated_x_.size() == x.size() && estimated_x_ == x && estimated_p_ == p) return last_error_;
+  estimated_x_ = x;
+  estimated_p_ = p;
   bool meshed = false;
   for (int i = 0; i < chain_->link_count(); ++i) meshed |= chain_->link(i).arc->elements() > 0;
   nodal_error_ = 0.0;
@@ -312,7 +317,8 @@ Vector RodProblem::refine(Vector x, const Vector& p, int rounds) {
 std::optional<Vector> RodProblem::moved_to(std::vector<chain::ArcMesh> meshes, const Vector& x,
                                            const Vector& p, bool within) {
   const std::vector<chain::ArcMesh> old_meshes = std::exchange(meshes_, std::move(meshes));
-  const double old_error = last_error_, old_nodal = nodal_error_;
+  const double old_nodal = nodal_error_;
+  const auto old_errors = std::tuple(last_error_, nodal_error_, estimated_x_, estimated_p_);
   const std::unique_ptr<chain::Chain> old = std::move(chain_);
   rebuild();
   Vector fresh = chain::transfer_state(*old, *chain_, x, loads(p));
@@ -324,7 +330,7 @@ std::optional<Vector> RodProblem::moved_to(std::vector<chain::ArcMesh> meshes, c
   }
   meshes_ = old_meshes;  // keep what works
   rebuild();
-  last_error_ = old_error;
+  std::tie(last_error_, nodal_error_, estimated_x_, estimated_p_) = old_errors;
   return std::nullopt;
 }
 
@@ -332,7 +338,8 @@ std::optional<Vector> RodProblem::adapt(const Vector& x, const Vector& p) {
   // A mesh far finer than needed costs as much as one too coarse: shed when a quarter of it or more is superfluous.
   constexpr double superfluous = 1e-3, worthwhile = 0.75;
   const double too_large = excess(x, p);
-  const bool coarsen = too_large < superfluous;
+  // A straight strut is exact on any mesh, which says nothing about its modes: their loads need the mesh it has.
+  const bool coarsen = too_large < superfluous && last_error_ > 1.5 * rounding;
   if (too_large <= 1.0 && !coarsen) return std::nullopt;
   const double order = 2.0 * meshes_.back().stages;
   const auto meshes = new_meshes(x, loads(p), std::pow(30.0 * too_large, 1.0 / order));

@@ -14,8 +14,8 @@ const char* name(PointType type);
 
 /// One accepted or located solution of a branch.
 struct Point {
-  /// Regular points share the walker's live problem, which fits x until the next step (adapt may change it
-  /// then); special points own a clone, so that they can be restarted from at any time.
+  /// Regular points share the walker's live problem, which fits x until the next step (which may adapt it);
+  /// special points own a clone, so that they can be restarted from at any time.
   std::shared_ptr<Problem> problem;
   Vector x, p;
   Tangent tangent;  ///< unit, in the direction of travel

@@ -24,7 +24,7 @@ struct WalkState {
   double path_length = 0.0;  ///< since the start
   int points = 0;            ///< accepted so far
   int events_in_place = 0;   ///< consecutive events without progress
-  bool started = false, has_tangent = false, adapt_pending = false;
+  bool started = false, has_tangent = false;
   bool mesh_changed = false;  ///< since the start: states no longer compare entry by entry
 
   Vector start_x, start_fingerprint;  ///< to see a closed curve

@@ -51,6 +51,7 @@ class RodProblem final : public continuation::Problem {
   std::shared_ptr<continuation::Problem> clone() const override;
 
   /// Relative error of R_tot (strut: end force): the change under one Newton step with one more stage an element.
+  /// Asked again for the same state it answers from memory.
   double error_estimate(const Vector& x, const Vector& p);
   /// Remeshes until error_estimate() is below the scene's tolerance, or `rounds` are used; returns the new state.
   /// @throws std::runtime_error if Newton fails on a refined mesh
@@ -111,6 +112,7 @@ class RodProblem final : public continuation::Problem {
   double last_error_ = 0.0;                       ///< relative, of the target
   double nodal_error_ = 0.0;                      ///< of frames and places at element ends
   double nodal_floor_ = 0.0;                      ///< what refinement did not reduce: rounding
+  Vector estimated_x_, estimated_p_;              ///< the state the two belong to
 };
 
 }  // namespace windlass::equilibrium
