@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "app/commands.hpp"
@@ -22,10 +24,25 @@ const char* type_name(PointType type) {
   return type == PointType::event ? "contact" : continuation::name(type);
 }
 
+/// Where a point lies, for people: the loads of a capstan, what a strut carries.
+std::string place(const output::BranchRow& row) {
+  if (row.topology != "strut") return fmt::format("T = {:.10g}  phi = {:.10g}", row.T, row.phi);
+  const std::string where =
+      fmt::format("end_force = {:.10g}  shortening = {:.10g}", row.end_force, row.shortening);
+  return row.end_moment == 0.0 ? where : where + fmt::format("  end_moment = {:.10g}", row.end_moment);
+}
+
 bool special(const Point& point) {
   return point.type == PointType::fold || point.type == PointType::branch_point ||
          point.type == PointType::event;
 }
+
+/// [EI/ρ²], against a precision of 1e-8 in the load or better.
+constexpr double zero_eigenvalue = 1e-6;
+
+/// Lowest eigenvalues that surely hold those that vanish at a branch point: they come after the negative ones of both
+/// parities.
+int zero_modes_wanted(const Point& point) { return 3 + 2 * std::max(0, point.index_after); }
 
 }  // namespace
 
@@ -50,9 +67,15 @@ void BranchRecorder::add_eigenvalues(Solution& solution, const Point& point) {
   const auto begin = Clock::now();
   auto& problem = dynamic_cast<RodProblem&>(*point.problem);
   equilibrium::Stability stability;
+  kernel_ = 0;
   if (spectra_ || special(point)) {
     try {
-      stability = stability::analyse(problem, point.x, point.p, 1, special(point), solver_);
+      // At a branch point the zero eigenvalues are counted: the kernel of the whole rod, of which a half chain sees the
+      // even part.
+      const int count = point.type == PointType::branch_point ? zero_modes_wanted(point) : 1;
+      stability = stability::analyse(problem, point.x, point.p, count, special(point), solver_);
+      kernel_ = static_cast<int>(std::count_if(stability.eigenvalues.begin(), stability.eigenvalues.end(),
+                                               [](double mu) { return std::abs(mu) < zero_eigenvalue; }));
     } catch (
         const std::exception&) {  // at a singular point the spectrum may be out of reach; the index is not
     }
@@ -68,6 +91,9 @@ void BranchRecorder::on_point(const Branch& branch, const Point& point) {
   pause();
   auto& problem = dynamic_cast<RodProblem&>(*point.problem);
   try {
+    // The walker has mostly asked for it already. At a special point Newton's step is not small: the estimate of the
+    // point before, on the same mesh, stands.
+    if (!special(point)) problem.error_estimate(point.x, point.p);
     Solution solution = equilibrium::record(problem, point.x, point.p);
     solution.newton_iterations = point.newton_iterations;
     solution.model_reason = "a point of a branch";
@@ -79,8 +105,8 @@ void BranchRecorder::on_point(const Branch& branch, const Point& point) {
     writer_.add_point(last_, solution);
     ++points_;
     if (progress_.due())
-      progress_.update(fmt::format("branch {}  point {}  T = {:.6g}  phi = {:.6g}  index {}", branch.id + 1,
-                                   in_branch_, solution.T, solution.phi, point.index));
+      progress_.update(fmt::format("branch {}  point {}  {}  index {}", branch.id + 1, in_branch_,
+                                   place(last_), point.index));
   } catch (const std::domain_error&) {  // an event at the very edge of the domain: nothing to store
   }
   resumed_ = Clock::now();
@@ -96,7 +122,8 @@ void BranchRecorder::on_special_point(const Branch& branch, const Point& point) 
   entry.phi = last_.phi;
   entry.parameter = last_.parameter;
   entry.precision = point.precision;
-  entry.multiplicity = std::max(1, point.multiplicity);
+  entry.multiplicity = std::max(
+      1, point.type == PointType::branch_point ? std::max(point.multiplicity, kernel_) : point.multiplicity);
   entry.before = point.before;
   entry.after = point.after;
   if (point.type == PointType::branch_point) {
@@ -106,9 +133,19 @@ void BranchRecorder::on_special_point(const Branch& branch, const Point& point) 
       mode = stability::mode_of(problem, point.x, point.p, point.branch_point->null.right.col(0),
                                 contact::Parity::even);
     } else {
-      // Not a zero of the half chain's equations: an odd mode, which only the full chain can follow.
+      // An odd mode, which only the full chain can follow, or a zero that was bracketed and not polished: the spectrum's
+      // mode nearest to zero, an even one first where several vanish.
       try {
-        mode = stability::analyse(problem, point.x, point.p, 1, true, solver_).modes.front();
+        const auto modes =
+            stability::analyse(problem, point.x, point.p, zero_modes_wanted(point), true, solver_).modes;
+        mode = *std::min_element(modes.begin(), modes.end(), [](const auto& a, const auto& b) {
+          const auto rank = [](const equilibrium::Mode& m) {
+            return std::abs(m.eigenvalue) > zero_eigenvalue ? std::abs(m.eigenvalue)
+                   : m.parity == "even"                     ? -1.0
+                                                            : 0.0;
+          };
+          return rank(a) < rank(b);
+        });
       } catch (const std::exception&) {
         mode.plane = "out", mode.parity = "odd";
       }
@@ -117,8 +154,8 @@ void BranchRecorder::on_special_point(const Branch& branch, const Point& point) 
   }
   writer_.add_special_point(entry);
   progress_.note(fmt::format(
-      "{:<4} {:<12} T = {:.10g}  phi = {:.10g}  precision {:.1e}{}{}", entry.label, entry.type, entry.T,
-      entry.phi, entry.precision,
+      "{:<4} {:<12} {}  precision {:.1e}{}{}{}", entry.label, entry.type, place(last_), entry.precision,
+      entry.multiplicity > 1 ? fmt::format("  multiplicity {}", entry.multiplicity) : "",
       entry.mode ? (entry.mode->plane == "in" ? "  in plane, " : "  out of plane, ") + entry.mode->parity
                  : "",
       entry.after.empty() ? "" : "  " + entry.before + " -> " + entry.after));

@@ -48,6 +48,7 @@ class BranchRecorder final : public continuation::DiagramObserver {
   int points_ = 0, in_branch_ = 0, lost_ = 0;
   bool stopped_ = false;
   std::set<std::string> labels_;
+  int kernel_ = 0;  ///< zero eigenvalues at the last branch point
   output::BranchRow last_;
 };
 

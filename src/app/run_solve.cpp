@@ -70,22 +70,23 @@ void print_summary(const Solution& solution, const scene::Scene& scene) {
 int run_solve(const SolveRequest& request) {
   petsc::ensure_session();
   Solution solution = equilibrium::solve(request.scene);
-  add_stability(solution, request.scene);
+  const scene::Scene scene = equilibrium::determinate(request.scene);  // the one solved
+  add_stability(solution, scene);
   if (request.save) {
     output::WriterOptions options;
     options.force = request.common.force;
     options.command = "solve";
     options.version = WINDLASS_VERSION;
     output::RunWriter writer =
-        output::RunWriter::create(output_folder(request.common, request.scene), request.scene, options);
+        output::RunWriter::create(output_folder(request.common, scene), scene, options);
     writer.add_point(output::make_row(solution, 1, 1, "S1", "start", 0.0), solution);
     writer.finish("finished", {1, solution.seconds_solve, solution.seconds_stability, solution.seconds_total},
                   {});
   }
   if (request.common.json)
-    std::printf("%s\n", output::to_json(solution, request.scene).dump(2).c_str());
+    std::printf("%s\n", output::to_json(solution, scene).dump(2).c_str());
   else if (!request.common.quiet)
-    print_summary(solution, request.scene);
+    print_summary(solution, scene);
   return done;
 }
 

@@ -33,9 +33,9 @@ std::unique_ptr<Joint> first_joint(const RodKind& rod, const Topology& t) {
     return std::make_unique<planar::MidTouch>();
   }
   if (!rod.spatial) return std::make_unique<planar::MidGap>();
-  // A strut's ends are held in space: x is no rigid motion; z is the phase of an isotropic strut's buckling plane.
-  return std::make_unique<spatial::MidGap>(
-      spatial::MidGap::OddFreedom{rod.strut, rod.strut && !rod.isotropic_straight(), held});
+  // A strut's ends are held in space: z is no rigid motion, nor is x unless both ends are free to move under the thrust.
+  return std::make_unique<spatial::MidGap>(spatial::MidGap::OddFreedom{
+      rod.strut && !rod.under_thrust, rod.strut, held, rod.strut && rod.isotropic_straight()});
 }
 
 std::unique_ptr<Joint> marker(const RodKind& rod, const Topology& t) {
@@ -45,7 +45,7 @@ std::unique_ptr<Joint> marker(const RodKind& rod, const Topology& t) {
     if (rod.spatial) return std::make_unique<spatial::MarkerLine>(held);
     return std::make_unique<planar::MidLine>();
   }
-  if (rod.spatial) return std::make_unique<spatial::MarkerGap>(held);
+  if (rod.spatial) return std::make_unique<spatial::MarkerGap>(held, rod.strut && !rod.under_thrust);
   return std::make_unique<planar::MarkerGap>();
 }
 

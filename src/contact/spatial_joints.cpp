@@ -176,19 +176,23 @@ Attachment MarkerLine::attach(Side, const double* w, const Loads&) const {
 }
 
 Attachment MarkerGap::attach(Side, const double* w, const Loads&) const {
+  const int k = places(), spins = tangent() - k;
   Attachment at = sized(4, 3, 3, tangent());
-  at.q = Eigen::Map<const Eigen::Vector4d>(w + 1);
-  at.dq.topRightCorner(tangent() - 1, tangent() - 1).setIdentity();
-  at.x(1) = w[0];
-  at.dx(1, 0) = 1.0;
+  at.q = Eigen::Map<const Eigen::Vector4d>(w + k);
+  at.dq.topRightCorner(spins, spins).setIdentity();
+  for (int i = 0; i < k; ++i) {  // (y) or (x, y)
+    at.x(2 - k + i) = w[i];
+    at.dx(2 - k + i, i) = 1.0;
+  }
   return at;
 }
 
 void MarkerGap::retract(const double* w, const double* dw, double* out) const {
-  out[0] = w[0] + dw[0];
-  const Vector3d v(dw[1], dw[2], twist_held_ ? dw[3] : 0.0);
-  Eigen::Map<Eigen::Vector4d> turned(out + 1);
-  turned = rod::retract(Eigen::Map<const Eigen::Vector4d>(w + 1), v);
+  const int k = places();
+  for (int i = 0; i < k; ++i) out[i] = w[i] + dw[i];
+  const Vector3d v(dw[k], dw[k + 1], twist_held_ ? dw[k + 2] : 0.0);
+  Eigen::Map<Eigen::Vector4d> turned(out + k);
+  turned = rod::retract(Eigen::Map<const Eigen::Vector4d>(w + k), v);
 }
 
 Attachment MidGap::attach(Side, const double* w, const Loads&) const {
@@ -211,6 +215,19 @@ Attachment MidGap::attach_odd(const double* w, const Loads& loads) const {
   if (odd_.height) at.dx(2, k++) = 1.0;
   if (odd_.spin) at.dq(2, k++) = 1.0;
   return at;
+}
+
+void MidGap::curvature_odd(const double* w, const SmallVector&, SmallMatrix& out) const {
+  if (!odd_.phase) return;
+  // Rotation of the shape about e_x with the opposite spin about d₃, so that the clamped frames stay: at the mid-point
+  // δr = e_x × r, and the half rotation vector ½ (Rᵀ e_x − e₃).
+  SmallVector turn = SmallVector::Zero(out.rows());
+  turn(0) = 0.5 * std::sin(w[1]);
+  if (odd_.height) turn(1 + odd_.along) = w[0];
+  if (odd_.spin) turn(1 + odd_.along + odd_.height) = 0.5 * (std::cos(w[1]) - 1.0);
+  constexpr double straight = 1e-6, stiffness = 1e4;  // [ρ], [EI/ρ³]: far above the eigenvalues of interest
+  const double size = turn.norm();
+  if (size > straight) out += stiffness / (size * size) * turn * turn.transpose();
 }
 
 Attachment MidTouch::attach(Side, const double* w, const Loads&) const {
@@ -295,8 +312,9 @@ void MarkerLine::adopt(const Place& place, double* w) const {
 }
 
 void MarkerGap::adopt(const Place& place, double* w) const {
-  w[0] = place.r(1);
-  Eigen::Map<Eigen::Vector4d>{w + 1} = place.q;
+  const int k = places();
+  for (int i = 0; i < k; ++i) w[i] = place.r(2 - k + i);
+  Eigen::Map<Eigen::Vector4d>{w + k} = place.q;
 }
 
 void MidGap::adopt(const Place& place, double* w) const {

@@ -217,7 +217,7 @@ Solution record(RodProblem& problem, const Vector& x, const Vector& p) {
     if (scene.friction) out.F0 = *scene.friction * out.R_tot;
   } else {
     const ArcRecord& last = out.arcs.back();
-    out.end_force = -last.n(0, last.n.cols() - 1);
+    out.end_force = 0.0 - last.n(0, last.n.cols() - 1);  // never −0
     out.end_moment = last.m(0, last.m.cols() - 1);
     out.shortening = 1.0 - (last.r(0, last.r.cols() - 1) - out.arcs.front().r(0, 0)) / scene.rod.length;
     out.phi_star = 0.0;

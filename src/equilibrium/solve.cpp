@@ -1,11 +1,15 @@
+#include <fmt/format.h>
+
 #include <chrono>
 #include <cmath>
+#include <continuation/walker.hpp>
 
 #include "windlass/equilibrium/newton.hpp"
 #include "windlass/equilibrium/record.hpp"
 #include "windlass/equilibrium/start.hpp"
 #include "windlass/rod/capstan.hpp"
 #include "windlass/scene/error.hpp"
+#include "windlass/scene/resolved.hpp"
 
 namespace windlass::equilibrium {
 
@@ -39,11 +43,38 @@ int spatial_index(Started& planar) {
   return lifted.problem->total_index(lifted.x, lifted.p);
 }
 
+/// Least thrust at which the straight strut may bow, up to that of twice Euler's; nullopt: none, or unstable without any.
+std::optional<double> buckling_thrust(const scene::Scene& scene) {
+  scene::Scene idle = scene;
+  idle.load.thrust = 0.0;
+  Started start = cold_start(idle, true, true, {"load.thrust"});
+  if (start.problem->total_index(start.x, start.p) > 0) return std::nullopt;
+  continuation::Options options;
+  const double euler =
+      4.0 * M_PI * M_PI * scene.rod.bending_stiffness / (scene.rod.length * scene.rod.length);
+  options.target = options.upper = 2.0 * euler;
+  options.parameter_scale = euler;
+  options.detect_events = false;
+  continuation::Walker walker(start.problem, start.x, start.p, options);
+  while (const auto point = walker.step())
+    if (point->type == continuation::PointType::branch_point) return point->p(0);
+  return std::nullopt;
+}
+
+Solution solve_strut(const scene::Scene& scene, const std::vector<std::string>& keys) {
+  Started rod = cold_start(scene, true, symmetric(scene), keys);
+  if (scene.ends.shortening) return finish(rod, "a strut may twist and leave the plane: Kirchhoff rod");
+  const int index = rod.problem->total_index(rod.x, rod.p);
+  if (index == 0) return finish(rod, "the straight strut is stable under this thrust");
+  const std::string unstable =
+      "the straight strut is unstable under this thrust (index " + std::to_string(index) + ")";
+  if (auto buckled = stable_neighbour(rod))
+    return finish(*buckled, unstable + "; this is the state it leaves for");
+  return finish(
+      rod, unstable + "; no stable state was found on the arms that leave it, so this is the straight one");
+}
+
 Solution solve_automatically(const scene::Scene& scene, const std::vector<std::string>& keys) {
-  if (!scene.has_cylinder) {
-    Started rod = cold_start(scene, true, symmetric(scene), keys);
-    return finish(rod, "a strut may twist and leave the plane: Kirchhoff rod");
-  }
   Started planar = cold_start(scene, false, true, keys);
   const int index = spatial_index(planar);
   if (index == 0 && symmetric(scene)) {
@@ -73,7 +104,21 @@ std::string load_key(const scene::Scene& scene) {
   return scene.ends.shortening ? "ends.shortening" : "load.thrust";
 }
 
-Solution solve(const scene::Scene& scene) {
+bool thrust_undetermined(const scene::Scene& scene) {
+  return !scene.has_cylinder && scene.ends.shortening == 0.0;
+}
+
+scene::Scene determinate(scene::Scene scene) {
+  if (!thrust_undetermined(scene)) return scene;
+  scene.ends.shortening.reset();
+  scene.load.thrust = 0.0;
+  if (scene.continuation && scene.continuation->parameter == "ends.shortening") scene.continuation.reset();
+  scene.resolved_toml = scene::to_toml(scene);
+  return scene;
+}
+
+Solution solve(const scene::Scene& asked) {
+  const scene::Scene scene = determinate(asked);
   const auto begin = std::chrono::steady_clock::now();
   const std::vector<std::string> keys{load_key(scene)};
   Solution solution;
@@ -100,8 +145,15 @@ Solution solve(const scene::Scene& scene) {
       break;
     }
     case ModelKind::automatic:
-      solution = solve_automatically(scene, keys);
+      solution = scene.has_cylinder ? solve_automatically(scene, keys) : solve_strut(scene, keys);
       break;
+  }
+  if (thrust_undetermined(asked)) {
+    const std::optional<double> most = buckling_thrust(scene);
+    solution.model_reason = fmt::format(
+        "without shortening an inextensible strut is straight and {}; shown is the one without thrust",
+        most ? fmt::format("carries any thrust up to its buckling load {:.12g}", *most)
+             : "already unstable without thrust, by its twist");
   }
   solution.seconds_solve = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   solution.seconds_total = solution.seconds_solve;

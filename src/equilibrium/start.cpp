@@ -1,10 +1,13 @@
 #include "windlass/equilibrium/start.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <continuation/walker.hpp>
 #include <optional>
 
+#include "windlass/chain/ring.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/rod/capstan.hpp"
 #include "windlass/scene/error.hpp"
@@ -74,6 +77,41 @@ Draft closed_form_draft(const Loads& loads, double b) {
   return {{Stretch::tail}, true, {0.0, loads.half_length}};
 }
 
+/// The state of `scene`, followed from a half-chain state at another value of the one parameter on `from.p`.
+std::optional<Started> follow(const Started& from, const scene::Scene& scene, double goal, bool half,
+                              const std::vector<std::string>& keys, std::string& failure) {
+  continuation::Options options;
+  options.target = goal;
+  options.direction = goal < from.p(0) ? -1 : 1;
+  options.detect_branch_points = false;
+  options.step = 0.02;
+  options.step_max = 0.2;
+  options.max_points = 3000;
+  std::shared_ptr<continuation::Problem> last = from.problem;
+  Vector x = from.x;
+  int iterations = from.newton_iterations;
+  if (from.p(0) != goal) {
+    continuation::Walker walker(from.problem, from.x, from.p, options);
+    while (const auto point = walker.step()) iterations += point->newton_iterations;
+    if (walker.end().kind != continuation::End::Kind::target) {
+      failure = fmt::format("followed from {} = {:g}, the branch ends: {}", from.problem->keys().front(),
+                            from.p(0), walker.end().reason);
+      return std::nullopt;
+    }
+    last = walker.problem();
+    x = walker.x();
+  }
+  const auto& reached = dynamic_cast<const RodProblem&>(*last);
+  auto problem =
+      std::make_shared<RodProblem>(scene, reached.spatial(), reached.topology(), reached.meshes(), keys);
+  const Vector p = problem->parameters();
+  if (problem->polish(x, p) < 0)
+    return failure = "Newton did not converge at the end of the way", std::nullopt;
+  x = problem->refine(x, p);
+  if (!half) return unfold(*problem, x, p, iterations);
+  return Started{problem, x, p, iterations};
+}
+
 /// Down from a tension where the line contact exists, through every event on the way.
 std::optional<Started> by_continuation(const scene::Scene& scene, bool spatial, bool half,
                                        const std::vector<std::string>& keys, std::string& failure) {
@@ -92,70 +130,80 @@ std::optional<Started> by_continuation(const scene::Scene& scene, bool spatial, 
     failure = "no line contact was found at a higher tension either";
     return std::nullopt;
   }
-  continuation::Options options;
-  options.target = scene.load.tension;
-  options.direction = scene.load.tension < from->p(0) ? -1 : 1;
-  options.detect_branch_points = false;
-  options.step = 0.02;
-  options.step_max = 0.2;
-  options.max_points = 3000;
-  continuation::Walker walker(from->problem, from->x, from->p, options);
-  int iterations = 0;
-  while (const auto point = walker.step()) iterations += point->newton_iterations;
-  if (walker.end().kind != continuation::End::Kind::target) {
-    failure = "followed from T = " + std::to_string(from->p(0)) + ", the branch ends: " + walker.end().reason;
-    return std::nullopt;
-  }
-  const auto& reached = dynamic_cast<const RodProblem&>(*walker.problem());
-  auto problem = std::make_shared<RodProblem>(scene, spatial, reached.topology(), reached.meshes(), keys);
-  Vector x = walker.x();
-  const Vector p = problem->parameters();
-  if (problem->polish(x, p) < 0) return std::nullopt;
-  x = problem->refine(x, p);
-  if (!half) return unfold(*problem, x, p, iterations);
-  return Started{problem, x, p, iterations};
+  return follow(*from, scene, scene.load.tension, half, keys, failure);
 }
 
-Started start_strut(const scene::Scene& scene, bool half, const std::vector<std::string>& keys) {
-  // A shortened strut is buckled: reached from a slight bow, where the amplitude follows from the shortening.
-  const Loads loads = loads_of(scene);
-  const double goal = loads.shortening;
-  scene::Scene near = scene;
-  std::shared_ptr<RodProblem> problem;
-  Vector x, p;
-  int iterations = 0;
+/// A strut's half chain near a given shape; nullopt where Newton does not converge.
+std::optional<Started> strut_near(const scene::Scene& scene, const chain::Profile& shape, double thrust,
+                                  const std::vector<std::string>& keys) {
+  constexpr int elements = 8;  // with order 12 the straight strut's buckling loads are exact to 1e-13
   const Topology topology{{Stretch::tail}, {}, true, false};
-  if (scene.ends.shortening && !(goal > 0.0))
+  const std::vector<ArcMesh> meshes{{chain::uniform_mesh(elements), start_stages}};
+  auto problem = std::make_shared<RodProblem>(scene, true, topology, meshes, keys);
+  const double half_length = loads_of(scene).half_length;
+  Vector x = chain::guess_state(problem->chain(), topology, problem->rod(), shape, {0.0, half_length});
+  const Vector p = problem->parameters();
+  problem->chain().force(x, 0)[0] = -thrust;
+  const int used = problem->polish(x, p);
+  if (used < 0) return std::nullopt;
+  return Started{problem, x, p, used};
+}
+
+/// Under a given thrust: the straight strut, twisted evenly. Its mesh is kept: nothing in this state tells how fine the
+/// mesh must be for the buckling loads.
+Started straight_strut(const scene::Scene& scene, bool half, const std::vector<std::string>& keys) {
+  const chain::Profile straight = chain::strut_profile(loads_of(scene), 0.0);
+  const std::optional<Started> start = strut_near(scene, straight, scene.load.thrust.value_or(0.0), keys);
+  if (!start) throw NoEquilibrium("Newton did not converge for the straight strut");
+  start->problem->error_estimate(start->x, start->p);
+  if (!half) return unfold(*start->problem, start->x, start->p, start->newton_iterations);
+  return *start;
+}
+
+/// A slightly shortened strut: a moderate bow, whose amplitude follows from the shortening.
+std::optional<Started> bowed_strut(const scene::Scene& scene) {
+  constexpr double moderate = 0.02;
+  const double goal = *scene.ends.shortening, length = scene.rod.length;
+  const double critical = 4.0 * M_PI * M_PI * scene.rod.bending_stiffness / (length * length);
+  scene::Scene near = scene;
+  near.ends.shortening = moderate;
+  const chain::Profile bow = chain::strut_profile(loads_of(near), 2.0 * std::sqrt(moderate));
+  std::optional<Started> from = strut_near(near, bow, critical, {"ends.shortening"});
+  // Towards none by factors: the amplitude goes like the square root.
+  for (double at = moderate; from && at > goal;) {
+    at = std::max(goal, at / 3.0);
+    from->p = Vector::Constant(1, at);
+    if (from->problem->polish(from->x, from->p) < 0) from.reset();
+  }
+  return from;
+}
+
+/// A strut whose twist has gone into a loop: the ring, with its ends together.
+std::optional<Started> looped_strut(const scene::Scene& scene) {
+  scene::Scene near = scene;
+  near.ends.shortening = 1.0;
+  return strut_near(near, chain::ring_profile(loads_of(near)), 0.0, {"ends.shortening"});
+}
+
+/// At a given shortening: followed from the bowed strut. A strut twisted by a full turn or so may not get there, since
+/// its ends come together only once the twist has gone into a loop; it is then followed from the ring.
+Started buckled_strut(const scene::Scene& scene, bool half, const std::vector<std::string>& keys) {
+  const double goal = *scene.ends.shortening;
+  if (!(goal > 0.0))
     throw scene::SceneError(
         "ends.shortening = 0: a straight inextensible strut carries any thrust up to buckling; give "
         "load.thrust, or a shortening above 0");
-  // From a moderate bow up in steps, or down by factors: the amplitude goes like the square root.
-  constexpr double first = 0.02;
-  for (double at = scene.ends.shortening ? first : goal;;
-       at = goal > at ? std::min(goal, at + 0.05) : std::max(goal, at / 3.0)) {
-    if (scene.ends.shortening) near.ends.shortening = at;
-    const Loads here = loads_of(near);
-    const std::vector<ArcMesh> meshes =
-        problem ? problem->meshes() : std::vector<ArcMesh>{{chain::uniform_mesh(6), start_stages}};
-    auto next = std::make_shared<RodProblem>(near, true, topology, meshes, keys);
-    p = next->parameters();
-    if (!problem) {
-      const chain::Profile bow = chain::strut_profile(here, 2.0 * std::sqrt(at));
-      x = chain::guess_state(next->chain(), topology, next->rod(), bow, {0.0, here.half_length});
-      const double critical = 4.0 * M_PI * M_PI / (4.0 * here.half_length * here.half_length);
-      next->chain().force(x, 0)[0] =
-          scene.ends.shortening ? -critical * scene.rod.bending_stiffness : -here.thrust;
-    }
-    const int used = next->polish(x, p);
-    if (used < 0)
-      throw NoEquilibrium("Newton did not converge for the strut at shortening " + std::to_string(at));
-    iterations += used;
-    problem = next;
-    if (at == goal) break;
-  }
-  x = problem->refine(x, p);
-  if (!half) return unfold(*problem, x, p, iterations);
-  return {problem, x, p, iterations};
+  std::string failure = "Newton did not converge near the straight one";
+  const auto reached = [&](std::optional<Started> from) -> std::optional<Started> {
+    if (!from) return std::nullopt;
+    from->x = from->problem->refine(from->x, from->p);
+    return follow(*from, scene, goal, half, keys, failure);
+  };
+  if (auto bowed = reached(bowed_strut(scene))) return *bowed;
+  if (std::abs(scene.ends.twist) > M_PI)
+    if (auto looped = reached(looped_strut(scene))) return *looped;
+  throw NoEquilibrium("the buckled strut was not found at shortening " + std::to_string(goal) + ": " +
+                      failure);
 }
 
 }  // namespace
@@ -214,7 +262,8 @@ Started lift(RodProblem& planar, const Vector& x, const Vector& p, bool half) {
 }
 
 Started cold_start(const scene::Scene& scene, bool spatial, bool half, const std::vector<std::string>& keys) {
-  if (!scene.has_cylinder) return start_strut(scene, half, keys);
+  if (!scene.has_cylinder)
+    return scene.ends.shortening ? buckled_strut(scene, half, keys) : straight_strut(scene, half, keys);
   Loads loads = loads_of(scene);
   const double b = scene.rod.bending_stiffness;
   if (scene.rod.infinite()) loads.half_length = 0.5 * loads.angle + 40.0 / std::sqrt(loads.tension);

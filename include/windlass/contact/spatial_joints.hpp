@@ -104,19 +104,20 @@ class MarkerLine final : public VectorJoint {
 };
 
 /// The mid-point of a full chain on a free arc: w = (y, q), with x = z = 0 held, and the spin about d₃ unless twist is
-/// held. 4 or 3 degrees of freedom.
+/// held. 4 or 3 degrees of freedom. `along`: w = (x, y, q), for struts whose ends hold x.
 class MarkerGap final : public Joint {
  public:
-  explicit MarkerGap(bool twist_held) : twist_held_(twist_held) {}
+  explicit MarkerGap(bool twist_held, bool along = false) : twist_held_(twist_held), along_(along) {}
   JointKind kind() const override { return JointKind::marker; }
-  int ambient() const override { return 5; }
-  int tangent() const override { return twist_held_ ? 4 : 3; }
+  int ambient() const override { return along_ ? 6 : 5; }
+  int tangent() const override { return (along_ ? 2 : 1) + (twist_held_ ? 3 : 2); }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   void retract(const double* w, const double* dw, double* out) const override;
   void adopt(const Place& place, double* w) const override;
 
  private:
-  bool twist_held_;
+  int places() const { return along_ ? 2 : 1; }
+  bool twist_held_, along_;
 };
 
 /// Half-turn point on a free arc: r = (0, y, 0), frame turned by ψ about the half-turn axis e_y; w = (y, ψ).
@@ -125,14 +126,19 @@ class MidGap final : public VectorJoint {
  public:
   struct OddFreedom {
     bool along = false;   ///< x varies (false: sliding of the rod along itself, pinned)
-    bool height = false;  ///< z varies (false: rigid translation or rotational phase, pinned)
+    bool height = false;  ///< z varies (false: rigid translation, pinned)
     bool spin = true;  ///< spin about d₃ varies (false: rigid spin of an isotropic rod free of end moment)
+    bool phase =
+        false;  ///< an isotropic strut's shape may turn about e_x at no cost: held by a spring (curvature_odd)
   };
   explicit MidGap(OddFreedom odd) : odd_(odd) {}
   JointKind kind() const override { return JointKind::mid; }
   int tangent() const override { return 2; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   Attachment attach_odd(const double* w, const Loads& loads) const override;
+  /// The phase condition: a spring against turning about e_x. That motion is a rigid one, so any stiffness leaves the
+  /// inertia of the others as it is; a straight strut does not move in it, feels no spring, and keeps both planes.
+  void curvature_odd(const double* w, const SmallVector& f, SmallMatrix& out) const override;
   void adopt(const Place& place, double* w) const override;
 
  private:

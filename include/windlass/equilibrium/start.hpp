@@ -33,12 +33,16 @@ Started lift(RodProblem& planar, const Vector& x, const Vector& p, bool half);
 /// The full chain of a symmetric state. @throws NoEquilibrium
 Started unfold(RodProblem& halved, const Vector& x, const Vector& p, int iterations);
 
-/// A stable state near an unstable flat one: found on the arms of the branch points met on the way down from a tension at
-/// which the flat state is stable. nullopt if there is none.
+/// A stable state near an unstable flat (straight) one: found on the arms of the branch points met on the way from a load
+/// at which that state is stable: a higher tension, or no thrust. nullopt if there is none.
 std::optional<Started> stable_neighbour(Started& unstable);
 
 /// The scene key of the load that is given: load.tension, or for struts ends.shortening or load.thrust.
 std::string load_key(const scene::Scene& scene);
+
+/// A strut whose ends are not pushed together at all is straight, and its thrust is undetermined (anything up to the
+/// buckling load). Such a scene becomes the one under no thrust; any other is returned as it is.
+scene::Scene determinate(scene::Scene scene);
 
 /// `solve`: climbs the rungs closed form, planar, Kirchhoff half, Kirchhoff full as far as the scene needs; the result
 /// names the rung and the reason. @throws NoEquilibrium

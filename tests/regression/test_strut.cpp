@@ -1,0 +1,53 @@
+// Struts as a user meets them: nothing undetermined is refused, and the double branch point is reported as one.
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "support/run_program.hpp"
+
+using namespace windlass::test;
+using nlohmann::json;
+
+namespace {
+
+std::string scene(const std::string& name) {
+  return std::string(std::getenv("WINDLASS_SCENES")) + "/" + name + ".toml";
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(strut_runs)
+
+BOOST_AUTO_TEST_CASE(the_shipped_strut_is_straight_before_it_is_pushed) {
+  for (const char* name : {"strut-clamped", "strut-twisted"}) {
+    const TemporaryFolder folder;
+    const Outcome outcome = run_program({"solve", scene(name), "--json"}, folder.path());
+    BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    const json answer = json::parse(outcome.out);
+    BOOST_TEST(std::abs(answer["end_force"].get<double>()) < 1e-12);
+    BOOST_TEST(std::abs(answer["shortening"].get<double>()) < 1e-12);
+    BOOST_TEST(answer["stability"]["index"] == 0);
+    BOOST_TEST(answer["model_reason"].get<std::string>().find("buckling load") != std::string::npos);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(buckling_of_an_isotropic_strut_is_a_double_branch_point_with_one_arm) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run_program(
+      {"diagram", scene("strut-thrust"), "--set", "continuation.to=50", "--out", "run"}, folder.path());
+  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  const json specials = json::parse(slurp(folder.path() / "run" / "special_points.json"));
+  BOOST_TEST_REQUIRE(specials.size() >= 1u);
+  BOOST_TEST(specials[0]["type"] == "branch_point");
+  BOOST_TEST(specials[0]["multiplicity"] == 2);
+  BOOST_TEST(specials[0]["mode"]["parity"] == "even");  // the one the half chain follows
+  BOOST_TEST(specials[0]["precision"].get<double>() < 1e-7);
+  const std::string csv = slurp(folder.path() / "run" / "branches.csv");
+  BOOST_TEST(csv.find(",B1,branch_point,") != std::string::npos);
+  BOOST_TEST(csv.find("\n2,1,") != std::string::npos);  // the arm
+  BOOST_TEST(csv.find("\n3,1,") == std::string::npos);  // and only one
+  BOOST_TEST(run_program({"verify", "run"}, folder.path()).status == 0);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
