@@ -1,0 +1,84 @@
+// First and second derivatives of the Lagrangian densities against differences.
+#include <boost/test/unit_test.hpp>
+
+#include "windlass/rod/kirchhoff_density.hpp"
+#include "windlass/rod/planar_density.hpp"
+#include "windlass/rod/surface_density.hpp"
+
+namespace {
+
+using namespace windlass;
+
+/// Checks L's gradient and Hessian in z = (q, q'), and d = −∂L/∂n with its derivative, at some points.
+template <class Density>
+void check(const Density& density) {
+  constexpr int a = Density::ambient, p = Density::forces;
+  using Z = Eigen::Matrix<double, 2 * a, 1>;
+  using Q = Eigen::Matrix<double, a, 1>;
+  using N = Eigen::Matrix<double, p, 1>;
+  constexpr double h = 1e-5, bound = 1e-8;  // central differences: h² and 1e-16/h, entries of order one
+  std::srand(11);
+  for (int sample = 0; sample < 5; ++sample) {
+    const Z z = Z::Random() + Z::Unit(0) * (a == 4 ? 1.5 : 0.0);  // quaternions of any length but zero
+    const N n = N::Random();
+    const auto first = [&](const Z& at, N& d) {
+      Z g;
+      const double value = density.first(Q(at.template head<a>()), Q(at.template tail<a>()), n, g, d);
+      return std::pair<double, Z>(value, g);
+    };
+    N d, unused;
+    Z g;
+    Eigen::Matrix<double, 2 * a, 2 * a> hessian;
+    Eigen::Matrix<double, p, a> dd;
+    density.second(Q(z.template head<a>()), Q(z.template tail<a>()), n, g, hessian, d, dd);
+    BOOST_TEST((g - first(z, unused).second).norm() < 1e-14 * (1.0 + g.norm()));
+    BOOST_TEST((d - density.direction(Q(z.template head<a>()))).norm() < 1e-14);
+    for (int k = 0; k < 2 * a; ++k) {
+      N d_up, d_down;
+      const auto up = first(z + h * Z::Unit(k), d_up), down = first(z - h * Z::Unit(k), d_down);
+      const double scale = 1.0 + hessian.norm();
+      BOOST_TEST(std::abs((up.first - down.first) / (2.0 * h) - g(k)) < bound * scale);
+      BOOST_TEST(((up.second - down.second) / (2.0 * h) - hessian.col(k)).norm() < 10.0 * bound * scale);
+      if (k < a) BOOST_TEST(((d_up - d_down) / (2.0 * h) - dd.col(k)).norm() < bound * scale);
+    }
+  }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(densities)
+
+BOOST_AUTO_TEST_CASE(planar) { check(rod::PlanarDensity{1.3}); }
+BOOST_AUTO_TEST_CASE(surface) { check(rod::SurfaceDensity{1.2, 0.7}); }
+BOOST_AUTO_TEST_CASE(kirchhoff) { check(rod::KirchhoffDensity{{1.0, 1.4, 0.6}, {0.2, -0.1, 0.3}}); }
+
+BOOST_AUTO_TEST_CASE(kirchhoff_in_the_plane_is_the_planar_density) {
+  const rod::KirchhoffDensity spatial;
+  const rod::PlanarDensity planar;
+  for (const double theta : {0.3, 2.0}) {
+    const double slope = 0.7;
+    // Frame turned by θ about e_z from d3 = e_x; q' = ½ slope (0, e_z) ⊗ q.
+    const rod::Quaternion base = rod::rotation(Eigen::Vector3d::UnitY(), 0.5 * M_PI);
+    const rod::Quaternion q = rod::product(rod::rotation(Eigen::Vector3d::UnitZ(), theta), base);
+    const rod::Quaternion dq = 0.5 * slope * rod::product(rod::Quaternion(0.0, 0.0, 0.0, 1.0), q);
+    rod::KirchhoffDensity::Vector8 g;
+    Eigen::Vector3d d;
+    Eigen::Vector2d g2, d2;
+    const double lagrangian = spatial.first(q, dq, {0.4, -0.9, 0.0}, g, d);
+    using Scalar = rod::PlanarDensity::Scalar;
+    BOOST_TEST(lagrangian == planar.first(Scalar(theta), Scalar(slope), {0.4, -0.9}, g2, d2),
+               boost::test_tools::tolerance(1e-13));
+    BOOST_TEST((d.head<2>() - d2).norm() < 1e-14);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_helix_on_the_cylinder_is_that_of_the_kirchhoff_density) {
+  // Inclination ψ, no slope: curvature cos²ψ, twist sin ψ cos ψ.
+  const rod::SurfaceDensity surface{1.0, 0.6};
+  const Eigen::Vector2d q(0.4, 0.1), slope(0.0, 0.2);
+  const double c = std::cos(0.4), s = std::sin(0.4), twist = 0.2 + s * c;
+  BOOST_TEST(surface.elastic(q, slope) == 0.5 * c * c * c * c + 0.3 * twist * twist,
+             boost::test_tools::tolerance(1e-14));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
