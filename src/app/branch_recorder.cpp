@@ -37,8 +37,8 @@ bool special(const Point& point) {
          point.type == PointType::event;
 }
 
-/// [EI/ρ²], against a precision of 1e-8 in the load or better.
-constexpr double zero_eigenvalue = 1e-6;
+/// [EI/ρ²]. Branch points that could only be bracketed are good to 1e-6 in the load.
+constexpr double zero_eigenvalue = 1e-5;
 
 /// Lowest eigenvalues that surely hold those that vanish at a branch point: they come after the negative ones of both
 /// parities.

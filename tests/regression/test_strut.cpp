@@ -50,4 +50,13 @@ BOOST_AUTO_TEST_CASE(buckling_of_an_isotropic_strut_is_a_double_branch_point_wit
   BOOST_TEST(run_program({"verify", "run"}, folder.path()).status == 0);
 }
 
+BOOST_AUTO_TEST_CASE(michells_ring_buckles_in_two_modes_at_once) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run_program({"continue", scene("ring-michell"), "--out", "run"}, folder.path());
+  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  const json specials = json::parse(slurp(folder.path() / "run" / "special_points.json"));
+  BOOST_TEST_REQUIRE(specials.size() == 1u);
+  BOOST_TEST(specials[0]["multiplicity"] == 2);  // cos 2θ and sin 2θ
+}
+
 BOOST_AUTO_TEST_SUITE_END()
