@@ -71,6 +71,15 @@ struct RunRequest {
   std::vector<std::string> formats = {"png", "svg", "pdf"};  ///< plot
 };
 
+struct RobustnessRequest {
+  CommonOptions common;
+  scene::Scene scene;
+  int tensions = 40, angles = 40;
+  std::vector<double> tension_range{0.05, 1e4};                                      ///< [EI/ρ²]
+  std::vector<double> angle_range{0.25 * 3.14159265358979, 8.0 * 3.14159265358979};  ///< [rad]
+  bool grid_only = false;
+};
+
 // Bodies: one function a command, in run_NAME.cpp. They return an exit status; bad input is thrown.
 int run_solve(const SolveRequest& request);
 int run_continue(const BranchRequest& request);
@@ -80,11 +89,12 @@ int run_stability(const RunRequest& request);
 int run_verify(const RunRequest& request);
 int run_plot(const RunRequest& request);
 int run_report(const RunRequest& request);
+int run_robustness(const RobustnessRequest& request);
 
 /// Declares a subcommand; its callback stores the exit status in `status`.
 using AddCommand = void(CLI::App& app, CommonOptions& common, int& status);
 AddCommand add_solve, add_continue, add_diagram, add_locus, add_stability, add_verify, add_plot, add_report,
-    add_scenes;
+    add_robustness, add_scenes;
 
 // ---- shared by the command files -------------------------------------------------------------------------------
 

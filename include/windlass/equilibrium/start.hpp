@@ -14,6 +14,12 @@ class NoEquilibrium : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// There is no equilibrium in contact: followed to the scene's loads, the rod lifts off on the way.
+class NoContact : public NoEquilibrium {
+ public:
+  using NoEquilibrium::NoEquilibrium;
+};
+
 struct Started {
   std::shared_ptr<RodProblem> problem;
   Vector x, p;
