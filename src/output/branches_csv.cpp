@@ -21,25 +21,6 @@ std::string quoted(const std::string& text) {
   return result + '"';
 }
 
-std::vector<std::string> split(std::string_view line) {
-  std::vector<std::string> cells(1);
-  bool inside_quotes = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (inside_quotes && c == '"' && i + 1 < line.size() && line[i + 1] == '"') {
-      cells.back() += '"';
-      ++i;
-    } else if (c == '"') {
-      inside_quotes = !inside_quotes;
-    } else if (c == ',' && !inside_quotes) {
-      cells.emplace_back();
-    } else {
-      cells.back() += c;
-    }
-  }
-  return cells;
-}
-
 /// Reads the cells of one line in order; errors name the file, the line and the cell.
 class CellReader {
  public:
@@ -118,6 +99,25 @@ BranchRow read_row(CellReader cells, bool has_cylinder, bool has_extra) {
 
 }  // namespace
 
+std::vector<std::string> split_csv(std::string_view line) {
+  std::vector<std::string> cells(1);
+  bool inside_quotes = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (inside_quotes && c == '"' && i + 1 < line.size() && line[i + 1] == '"') {
+      cells.back() += '"';
+      ++i;
+    } else if (c == '"') {
+      inside_quotes = !inside_quotes;
+    } else if (c == ',' && !inside_quotes) {
+      cells.emplace_back();
+    } else {
+      cells.back() += c;
+    }
+  }
+  return cells;
+}
+
 std::string format_number(double value) {
   if (!std::isfinite(value)) return {};
   char buffer[32];
@@ -172,7 +172,7 @@ std::vector<BranchRow> read_branches(const std::filesystem::path& path, bool has
     const std::size_t end = content.find('\n', begin);
     if (end == std::string::npos) break;  // cut by a kill
     const std::string_view text(content.data() + begin, end - begin);
-    rows.push_back(read_row(CellReader(path, line, split(text)), has_cylinder, !extra_parameter.empty()));
+    rows.push_back(read_row(CellReader(path, line, split_csv(text)), has_cylinder, !extra_parameter.empty()));
     begin = end + 1;
   }
   return rows;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "windlass/output/records.hpp"
@@ -19,6 +20,9 @@ std::string csv_line(const BranchRow& row, bool has_cylinder, const std::string&
 /// @throws OutputError naming file and line when a cell cannot be read
 std::vector<BranchRow> read_branches(const std::filesystem::path& path, bool has_cylinder,
                                      const std::string& extra_parameter);
+
+/// Cells of one line, without their quotes (RFC 4180).
+std::vector<std::string> split_csv(std::string_view line);
 
 /// Shortest decimal form that reads back exactly; empty when the value is not finite.
 std::string format_number(double value);
