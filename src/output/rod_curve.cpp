@@ -11,11 +11,20 @@ using equilibrium::ArcRecord;
 
 namespace {
 
-Vector3d tangent(const ArcRecord& arc, Index i) {
-  return Eigen::Quaterniond(arc.q(0, i), arc.q(1, i), arc.q(2, i), arc.q(3, i))
-      .normalized()
-      .toRotationMatrix()
-      .col(2);
+/// State at a stored sample with the slopes along s.
+struct Sample {
+  Eigen::Quaterniond q;
+  Vector3d r, n, m, r_slope, n_slope, m_slope;
+};
+
+Sample sample(const ArcRecord& arc, Index i) {
+  Sample at;
+  at.q = Eigen::Quaterniond(arc.q(0, i), arc.q(1, i), arc.q(2, i), arc.q(3, i)).normalized();
+  at.r = arc.r.col(i), at.n = arc.n.col(i), at.m = arc.m.col(i);
+  at.r_slope = at.q.toRotationMatrix().col(2);
+  at.n_slope = -arc.p[i] * Vector3d(at.r.x(), at.r.y(), 0.0).normalized();
+  at.m_slope = at.n.cross(at.r_slope);
+  return at;
 }
 
 /// Slope of p at sample i from the parabola through its neighbours.
@@ -42,26 +51,42 @@ Value hermite(const Value& a, const Value& slope_a, const Value& b, const Value&
 
 }  // namespace
 
+namespace {
+
+void add(RodCurve& curve, std::size_t arc, double s, const Sample& at, double p) {
+  curve.s.push_back(s), curve.r.push_back(at.r), curve.q.push_back(at.q);
+  curve.n.push_back(at.n), curve.m.push_back(at.m), curve.p.push_back(p), curve.arc.push_back(arc);
+}
+
+/// Between two samples a distance h apart, x in [0, 1].
+Sample between(const Sample& a, const Sample& b, double h, double x) {
+  Sample at;
+  at.r = hermite(a.r, a.r_slope, b.r, b.r_slope, h, x);
+  at.n = hermite(a.n, a.n_slope, b.n, b.n_slope, h, x);
+  at.m = hermite(a.m, a.m_slope, b.m, b.m_slope, h, x);
+  at.q = a.q.slerp(x, b.q);
+  return at;
+}
+
+}  // namespace
+
 RodCurve dense_curve(const equilibrium::Solution& solution, double spacing) {
   RodCurve curve;
   for (std::size_t k = 0; k < solution.arcs.size(); ++k) {
     const ArcRecord& arc = solution.arcs[k];
-    const auto add = [&](double s, const Vector3d& r, double p) {
-      curve.s.push_back(s), curve.r.push_back(r), curve.p.push_back(p), curve.arc.push_back(k);
-    };
-    for (Index i = 0; i + 1 < arc.s.size(); ++i) {
+    const Index last = arc.s.size() - 1;
+    for (Index i = 0; i < last; ++i) {
       const double h = arc.s[i + 1] - arc.s[i];
       const int pieces = std::clamp(static_cast<int>(std::ceil(h / spacing)), 1, 40);
-      const Vector3d a = arc.r.col(i), b = arc.r.col(i + 1), ta = tangent(arc, i), tb = tangent(arc, i + 1);
+      const Sample a = sample(arc, i), b = sample(arc, i + 1);
       for (int j = 0; j < pieces; ++j) {
         const double x = static_cast<double>(j) / pieces;
         const double p =
             hermite(arc.p[i], pressure_slope(arc, i), arc.p[i + 1], pressure_slope(arc, i + 1), h, x);
-        add(arc.s[i] + x * h, hermite(a, ta, b, tb, h, x), p);
+        add(curve, k, arc.s[i] + x * h, between(a, b, h, x), p);
       }
     }
-    const Index last = arc.s.size() - 1;
-    add(arc.s[last], arc.r.col(last), arc.p[last]);
+    add(curve, k, arc.s[last], sample(arc, last), arc.p[last]);
   }
   return curve;
 }

@@ -6,12 +6,16 @@
 
 namespace windlass::output {
 
-/// A rod made dense enough to draw: cubic through the stored samples of each arc (tangents are known).
+/// A rod made dense enough to draw: cubics through the stored samples of each arc, whose slopes are known from
+/// r' = d3, n' = −p N (N the outward normal) and m' = n × d3; frames by spherical interpolation.
 struct RodCurve {
-  std::vector<double> s;           ///< [ρ]
-  std::vector<Eigen::Vector3d> r;  ///< [ρ]
-  std::vector<double> p;           ///< [EI/ρ³]
-  std::vector<std::size_t> arc;    ///< which arc a place belongs to; both sides of a joint are present
+  std::vector<double> s;              ///< [ρ]
+  std::vector<Eigen::Vector3d> r;     ///< [ρ]
+  std::vector<Eigen::Quaterniond> q;  ///< body→world, d3 = tangent
+  std::vector<Eigen::Vector3d> n;     ///< [EI/ρ²]
+  std::vector<Eigen::Vector3d> m;     ///< [EI/ρ]
+  std::vector<double> p;              ///< [EI/ρ³]
+  std::vector<std::size_t> arc;       ///< which arc a place belongs to; both sides of a joint are present
 };
 
 struct PointForce {
