@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
@@ -85,6 +86,19 @@ std::string gnuplot_text(const std::string& text, bool enhanced) {
     quoted += c;
   }
   return quoted + "\"";
+}
+
+std::string log_tics(const std::string& name, double low, double high) {
+  std::string list;
+  const bool long_axis = high / low > 500.0;
+  for (int e = static_cast<int>(std::floor(std::log10(low))); e <= std::log10(high); ++e) {
+    for (const double digit : {1.0, 2.0, 5.0}) {
+      const double value = digit * std::pow(10.0, e);
+      if (value < low || value > high || (long_axis && digit != 1.0)) continue;
+      list += (list.empty() ? "" : ", ") + std::string("'%g' ") + format_number(value);
+    }
+  }
+  return "  set " + name + " (" + list + ")\n";
 }
 
 std::string margins(double left, double right, double bottom, double top) {

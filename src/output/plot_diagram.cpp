@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "plot_diagram_data.hpp"
+#include "plot_labels.hpp"
 #include "windlass/output/atomic_file.hpp"
 #include "windlass/output/branches_csv.hpp"
 #include "windlass/output/error.hpp"
@@ -44,7 +45,9 @@ void write_data(const DiagramData& data, const fs::path& path) {
       "defined\n";
   for (const Piece& piece : data.pieces) {
     text += "# branch " + std::to_string(piece.branch) + ", " + arm_state_name(piece.state) + "\n";
-    for (const auto& values : piece.rows) {
+    for (std::size_t i = 0; i < piece.rows.size(); ++i) {
+      const auto& values = piece.rows[i];
+      if (i > 0 && piece.breaks.contains(i)) text += "\n";
       for (const double value : values)
         text += (std::isfinite(value) ? format_number(value) : std::string("?")) + " ";
       text += "\n";
@@ -84,56 +87,12 @@ bool has_type(const DiagramData& data, const std::string& type) {
                      [&](const SpecialMark& m) { return m.type == type; });
 }
 
-/// Labels at 1, 2, 5 times powers of ten on log axes, which often span less than one decade.
 std::string tics(const char* name, const Axis& axis) {
-  const std::string command = std::string("  set ") + name + " ";
-  if (!axis.log) return command + "autofreq\n";
-  std::string list;
-  const bool long_axis = axis.high / axis.low > 500.0;
-  for (int e = static_cast<int>(std::floor(std::log10(axis.low))); e <= std::log10(axis.high); ++e) {
-    for (const double digit : {1.0, 2.0, 5.0}) {
-      const double value = digit * std::pow(10.0, e);
-      if (value < axis.low || value > axis.high || (long_axis && digit != 1.0)) continue;
-      list += (list.empty() ? "" : ", ") + std::string("'%g' ") + format_number(value);
-    }
-  }
-  return command + "(" + list + ")\n";
+  return axis.log ? log_tics(name, axis.low, axis.high) : std::string("  set ") + name + " autofreq\n";
 }
 
 std::string range_text(const Axis& axis) {
   return "[" + format_number(axis.low) + ":" + format_number(axis.high) + "]";
-}
-
-/// Names of special points in the first panel, each on the side where there is room; a name that would cover an
-/// earlier one is left out (its marker stays, and special_points.json lists it).
-std::string label_commands(const DiagramData& data) {
-  const auto part = [](const Axis& axis, double value) {
-    return axis.log ? std::log(value / axis.low) / std::log(axis.high / axis.low)
-                    : (value - axis.low) / (axis.high - axis.low);
-  };
-  constexpr double wide = 0.085, tall = 0.06;
-  std::vector<std::pair<double, double>> taken;
-  std::string text;
-  int number = 100;
-  for (const SpecialMark& mark : data.special) {
-    const double x = part(data.x, mark.values[0]), y = part(data.panels[0], mark.values[1]);
-    if (!std::isfinite(x) || !std::isfinite(y)) continue;
-    for (const auto& [side, lift] :
-         {std::pair(1, -1), std::pair(-1, 1), std::pair(1, 1), std::pair(-1, -1)}) {
-      const double at_x = x + side * (0.015 + wide / 2), at_y = y + lift * 0.035;
-      const bool outside = at_x < wide / 2 || at_x > 1 - wide / 2 || at_y < tall / 2 || at_y > 1 - tall / 2;
-      const bool covers = std::any_of(taken.begin(), taken.end(), [&](const auto& other) {
-        return std::abs(other.first - at_x) < wide && std::abs(other.second - at_y) < tall;
-      });
-      if (outside || covers) continue;
-      taken.emplace_back(at_x, at_y);
-      text += "  set label " + std::to_string(number++) + " " + gnuplot_text(mark.label) + " at graph " +
-              format_number(at_x - side * wide / 2) + ", graph " + format_number(at_y) +
-              (side > 0 ? " left" : " right") + " font ',8'\n";
-      break;
-    }
-  }
-  return text;
 }
 
 /// Commands of one panel; special points are named in the first only.
@@ -202,38 +161,55 @@ std::string legend_commands(const DiagramData& data, double top) {
   return text + "\n";
 }
 
-/// Axes in newtons opposite to the dimensionless ones; gnuplot cannot link log axes, so they are set alongside.
-std::string newton_axes(const scene::Units& units, const Axis& x, const Axis& y) {
-  const auto scaled = [&](Axis axis) {
-    axis.low *= units.force, axis.high *= units.force;
+/// Axes in newtons, or grams hung at each end, opposite to the dimensionless ones; gnuplot cannot link log axes, so they
+/// are set alongside. The right axis only where y is a force.
+std::string physical_axes(const Axis& x, double x_scale, const char* x_title, const Axis* y, double y_scale) {
+  const auto scaled = [](Axis axis, double scale) {
+    axis.low *= scale, axis.high *= scale;
     return axis;
   };
-  const Axis x2 = scaled(x), y2 = scaled(y);
-  return std::string(x.log ? "  set log x2\n" : "") + (y.log ? "  set log y2\n" : "") + "  set x2range " +
-         range_text(x2) + "\n  set y2range " + range_text(y2) + "\n" + tics("x2tics", x2) +
-         tics("y2tics", y2) +
-         "  set xtics nomirror\n  set ytics nomirror\n  set x2label 'tension [N]' offset 0,-0.4\n" +
-         "  set y2label 'contact force [N]' offset -1,0\n";
+  const Axis x2 = scaled(x, x_scale);
+  std::string text = std::string(x.log ? "  set log x2\n" : "") + "  set x2range " + range_text(x2) + "\n" +
+                     tics("x2tics", x2) + "  set xtics nomirror\n  set x2label '" + x_title +
+                     "' offset 0,-0.4\n";
+  if (y == nullptr) return text;
+  const Axis y2 = scaled(*y, y_scale);
+  return text + (y2.log ? "  set log y2\n" : "") + "  set y2range " + range_text(y2) + "\n" +
+         tics("y2tics", y2) + "  set ytics nomirror\n  set y2label 'contact force  [N]' offset -1,0\n";
 }
 
-constexpr const char* no_newton_axes =
+constexpr const char* no_physical_axes =
     "  unset log x2\n  unset log y2\n  unset x2tics\n  unset y2tics\n  unset x2label\n  unset y2label\n"
     "  set xtics mirror\n  set ytics mirror\n";
+
+/// Widens the ranges so that measured points are seen.
+void include_measured(DiagramData& data, const std::vector<std::pair<double, double>>& measured) {
+  const auto include = [](Axis& axis, double value) {
+    if (axis.log && !(value > 0.0)) return;
+    axis.low = std::min(axis.low, axis.log ? 0.8 * value : value);
+    axis.high = std::max(axis.high, axis.log ? 1.25 * value : value);
+  };
+  for (const auto& [T, force] : measured) include(data.x, T), include(data.panels[0], force);
+}
 
 }  // namespace
 
 std::vector<fs::path> plot_diagram(const Run& run, const PlotOptions& options, const fs::path& folder,
                                    const std::string& stem) {
   if (run.rows.empty()) throw OutputError("the run " + run.folder.string() + " holds no points to plot");
-  const DiagramData data = diagram_data(run);
+  DiagramData data = diagram_data(run);
+  const bool against_T = run.info.has_cylinder && data.x.name == "T";
+  if (!options.measured.empty() && !against_T)
+    throw OutputError("measured points (T, F0) belong on a diagram in load.tension");
+  include_measured(data, options.measured);
   write_data(data, folder / (stem + ".dat"));
   write_special(data, folder / (stem + "-special.dat"));
   if (!options.measured.empty()) write_measured(options, folder / (stem + "-measured.dat"));
   // margins in inches, so that one panel or four look alike
   const std::size_t columns = data.panels.size() == 1 ? 1 : 2,
                     rows = (data.panels.size() + columns - 1) / columns;
-  const bool physical = options.units.has_value() && run.info.has_cylinder && data.x.name == "T";
-  const double head = physical ? 0.75 : 0.42, foot = 0.62, pitch = 2.7, width = 8.0;
+  const bool physical = options.units.has_value() && against_T;
+  const double head = physical ? 0.75 : 0.42, foot = 0.62, pitch = 2.7, width = physical ? 8.8 : 8.0;
   const double height = head + foot + pitch * static_cast<double>(rows);
   Picture picture{stem, width, height, {}};
   std::string& body = picture.body;
@@ -243,14 +219,16 @@ std::vector<fs::path> plot_diagram(const Run& run, const PlotOptions& options, c
   body += "  set label 1 " + gnuplot_text(run.info.scene) + " at screen 0.5, screen " +
           format_number(1 - 0.18 / height) + " center font ',11'\n";
   for (std::size_t k = 0; k < data.panels.size(); ++k) {
-    const bool newtons = physical && k == 0;
-    const double left = k % columns == 0 ? 0.76 : 4.8,
-                 right = columns == 1 ? 7.75 : left + (newtons ? 2.8 : 3.04);
+    const bool newtons = physical && k == 0, grams = physical && k == 1;
+    const double left = k % columns == 0 ? 0.76 : width - 3.2,
+                 right = columns == 1 ? width - 0.25 : left + 3.04;
     const double top = height - head - pitch * static_cast<double>(k / columns), bottom = top - pitch + 0.62;
     body += margins(left / width, right / width, bottom / height, top / height);
-    if (newtons) body += newton_axes(*options.units, data.x, data.panels[0]);
+    const double force = physical ? options.units->force : 1.0;
+    if (newtons) body += physical_axes(data.x, force, "tension  [N]", &data.panels[0], force);
+    if (grams) body += physical_axes(data.x, force / 9.80665e-3, "mass hung at each end  [g]", nullptr, 1.0);
     body += panel_commands(data, k, stem, !options.measured.empty());
-    if (newtons) body += no_newton_axes;
+    if (newtons || grams) body += no_physical_axes;
     if (k == 0) body += "  unset label\n";
   }
   body += legend_commands(data, foot / height) + "  unset multiplot\n";

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "windlass/output/plot.hpp"
+#include "windlass/output/stable_state.hpp"
 
 namespace windlass::output {
 
@@ -38,9 +39,10 @@ std::vector<double> log_slopes(const std::vector<BranchRow>& rows) {
 
 namespace {
 
-ArmState state_of(const BranchRow& row) {
-  if (!row.index) return ArmState::unknown;
-  return *row.index == 0 ? ArmState::stable : ArmState::unstable;
+ArmState state_between(const BranchRow& first, const BranchRow& second) {
+  const std::optional<int> index = index_between(first, second);
+  if (!index) return ArmState::unknown;
+  return *index == 0 ? ArmState::stable : ArmState::unstable;
 }
 
 /// A quantity of a row, given the row and alpha there.
@@ -102,12 +104,17 @@ std::vector<Quantity> capstan_quantities(const Run& run, bool against_T) {
   return list;
 }
 
-/// Without the quantities that no point has, such as eigenvalues of a run without stability, or that vanish
+/// Without the quantities that few points have, such as eigenvalues of a run without `stability`, or that vanish
 /// throughout, such as the axial moment of a strut that is not twisted.
 std::vector<Quantity> existing(std::vector<Quantity> quantities, const Run& run) {
   std::erase_if(quantities, [&](const Quantity& quantity) {
-    return std::none_of(run.rows.begin(), run.rows.end(),
-                        [&](const BranchRow& row) { return std::abs(quantity.value(row, 1.0)) > 1e-12; });
+    const auto known = std::count_if(run.rows.begin(), run.rows.end(), [&](const BranchRow& row) {
+      return std::isfinite(quantity.value(row, 1.0));
+    });
+    const bool some = std::any_of(run.rows.begin(), run.rows.end(), [&](const BranchRow& row) {
+      return std::abs(quantity.value(row, 1.0)) > 1e-12;
+    });
+    return !some || 2 * known < static_cast<std::ptrdiff_t>(run.rows.size());
   });
   return quantities;
 }
@@ -164,19 +171,27 @@ DiagramData diagram_data(const Run& run) {
   std::map<std::string, std::vector<double>> labelled;
   for (auto& [branch, rows] : branches) {
     const std::vector<double> alpha = log_slopes(rows);
-    bool open = false;
+    const auto values_at = [&](std::size_t i, double slope) {
+      std::vector<double> values = {x.value(rows[i], slope)};
+      for (const Quantity& quantity : quantities) values.push_back(quantity.value(rows[i], slope));
+      return values;
+    };
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      std::vector<double> values = {x.value(rows[i], alpha[i])};
-      for (const Quantity& quantity : quantities) values.push_back(quantity.value(rows[i], alpha[i]));
+      const std::vector<double> values = values_at(i, alpha[i]);
       for (std::size_t k = 0; k < values.size(); ++k) seen[k].push_back(values[k]);
       if (!rows[i].label.empty()) labelled[rows[i].label] = values;
-      const ArmState state = state_of(rows[i]);
-      if (!open || data.pieces.back().state != state) {
-        if (open) data.pieces.back().rows.push_back(values);
-        data.pieces.push_back({branch, state, {}});
-        open = true;
+      if (i == 0 && rows.size() > 1) continue;
+      const std::size_t before = i == 0 ? 0 : i - 1;
+      const ArmState state = state_between(rows[before], rows[i]);
+      // Beyond an event the contact is another, and so is alpha: it has no value there at the event itself.
+      const bool changed = rows[before].topology != rows[i].topology;
+      if (i <= 1 || data.pieces.back().state != state) data.pieces.push_back({branch, state, {}, {}});
+      Piece& piece = data.pieces.back();
+      if (piece.rows.empty() || changed) {
+        if (changed) piece.breaks.insert(piece.rows.size());
+        piece.rows.push_back(values_at(before, changed ? std::nan("") : alpha[before]));
       }
-      data.pieces.back().rows.push_back(std::move(values));
+      piece.rows.push_back(values);
     }
   }
   choose_range(data.x, seen[0]);

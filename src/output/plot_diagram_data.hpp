@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct Piece {
   int branch = 0;
   ArmState state = ArmState::unknown;
   std::vector<std::vector<double>> rows;  ///< x, then one value a panel
+  std::set<std::size_t> breaks;  ///< rows before which the line is broken: a new topology, the place repeated
 };
 
 struct SpecialMark {

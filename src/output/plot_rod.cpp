@@ -119,6 +119,22 @@ std::string view_commands(const std::string& file, bool with_rim, const Frame& f
   return text + "\n";
 }
 
+/// The same in newtons, grams and millimetres.
+std::string physical_subtitle(const equilibrium::Solution& solution, const scene::Units& units,
+                              double p_max) {
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "ρ = %.4g mm,  T = %.4g N (%.4g g hung),  R_{tot} = %.4g N,  p ≤ %.3g N/mm",
+                units.length * 1e3, solution.T * units.force, solution.T * units.force / 9.80665e-3,
+                solution.R_tot * units.force, p_max * units.pressure * 1e-3);
+  std::string result = text;
+  if (solution.F0) {
+    std::snprintf(text, sizeof text, ",  F_0 = %.4g N", *solution.F0 * units.force);
+    result += text;
+  }
+  return result;
+}
+
 std::string subtitle(const equilibrium::Solution& solution) {
   char text[200];
   if (solution.has_cylinder) {
@@ -135,7 +151,7 @@ std::string subtitle(const equilibrium::Solution& solution) {
 
 /// p along s with the point forces as impulses on an axis of their own.
 std::string pressure_commands(const equilibrium::Solution& solution, const std::string& stem, double p_max,
-                              double f_max) {
+                              double f_max, const std::optional<scene::Units>& units) {
   double s_contact = 0.0;
   for (const PointForce& force : point_forces(solution)) s_contact = std::max(s_contact, std::abs(force.s));
   const double reach = std::max(1.1 * s_contact, 0.2);
@@ -144,6 +160,11 @@ std::string pressure_commands(const equilibrium::Solution& solution, const std::
   text += margins(0.11, 0.89, 0.125, 0.32);
   text += "  set xrange [" + format_number(-reach) + ":" + format_number(reach) + "]\n";
   text += "  set xlabel 'arclength s  [ρ]' offset 0,0.4\n";
+  if (units) {
+    const double mm = units->length * 1e3;
+    text += "  set x2range [" + format_number(-reach * mm) + ":" + format_number(reach * mm) +
+            "]\n  set x2tics font ',9' offset 0,-0.3\n  set x2label '[mm]' offset 0,-0.8\n  set border 15\n";
+  }
   text += "  set yrange [0:" + format_number(p_max > 0 ? 1.15 * p_max : 1.0) +
           "]\n  set ylabel 'p  [EI/ρ³]' offset 1,0\n";
   if (!(p_max > 0)) text += "  unset ytics\n  unset ylabel\n";
@@ -156,12 +177,16 @@ std::string pressure_commands(const equilibrium::Solution& solution, const std::
          " using 1:2 axes x1y2 with points pt 9 ps 0.8 lc rgb '#c00000' notitle\n";
 }
 
-std::string heading(const equilibrium::Solution& solution, const std::string& title, double p_max) {
+std::string heading(const equilibrium::Solution& solution, const std::string& title, double p_max,
+                    const std::optional<scene::Units>& units) {
   std::string text =
       "  set datafile missing '?'\n  set multiplot\n  unset key\n  unset tics\n  unset border\n";
   text += "  set label 1 " + gnuplot_text(title) + " at screen 0.5, screen 0.968 center font ',11'\n";
   text += "  set label 2 " + gnuplot_text(subtitle(solution), false) +
           " at screen 0.5, screen 0.925 center font ',9'\n";
+  if (units)
+    text += "  set label 3 " + gnuplot_text(physical_subtitle(solution, *units, p_max), false) +
+            " at screen 0.5, screen 0.888 center font ',9'\n";
   text += "  set palette defined (0 '#fde725', 0.33 '#f98e09', 0.66 '#bc3754', 1 '#57106e')\n";
   text += "  set cbrange [0:" + format_number(p_max > 0 ? p_max : 1.0) + "]\n";
   if (!(p_max > 0)) return text + "  unset colorbox\n";
@@ -169,20 +194,40 @@ std::string heading(const equilibrium::Solution& solution, const std::string& ti
          "  set colorbox user origin screen 0.89, screen 0.47 size screen 0.018, screen 0.38\n";
 }
 
+/// 1, 2 or 5 times a power of ten, at least `least`.
+double nice_step(double least) {
+  const double decade = std::pow(10.0, std::floor(std::log10(std::max(least, 1e-12))));
+  for (const double digit : {1.0, 2.0, 5.0})
+    if (digit * decade >= least * (1 - 1e-9)) return digit * decade;
+  return 10.0 * decade;
+}
+
+/// As high as long: a loop, whose views stand side by side.
+bool strut_is_tall(const equilibrium::Solution& solution, const RodCurve& curve) {
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& r : curve.r) box.extend(r);
+  return solution.z_span >= 1e-6 && std::max(box.sizes().y(), box.sizes().z()) > 0.6 * box.sizes().x();
+}
+
 /// A strut has no cylinder: one side view, or two of equal scale when it leaves its plane.
 std::string strut_commands(const equilibrium::Solution& solution, const RodCurve& curve,
                            const std::string& title, const std::string& stem) {
   Eigen::AlignedBox3d box;
   for (const Vector3d& r : curve.r) box.extend(r);
-  const bool planar = solution.z_span < 1e-6;
+  const bool planar = solution.z_span < 1e-6, tall = strut_is_tall(solution, curve);
   const double margin = 0.08 * box.sizes().maxCoeff(),
-               half = 0.5 * std::max(box.sizes().y(), box.sizes().z()) + margin;
+               half = 0.5 * std::max(box.sizes().y(), planar ? 0.0 : box.sizes().z()) + margin;
   const auto range = [](const char* name, double low, double high) {
     return std::string("  set ") + name + " [" + format_number(low) + ":" + format_number(high) + "]\n";
   };
-  std::string text = std::string("  set multiplot layout ") + (planar ? "1,1" : "2,1") +
+  const double tic = nice_step(box.sizes().maxCoeff() / 4.0);
+  std::string text = std::string("  set multiplot layout ") +
+                     (planar ? "1,1"
+                      : tall ? "1,2"
+                             : "2,1") +
                      " margins screen 0.11,0.96,0.14,0.86 " +
                      "spacing screen 0.12\n  unset key\n  set size ratio -1\n  set grid lc rgb '#dddddd'\n";
+  text += "  set xtics " + format_number(tic) + "\n  set ytics " + format_number(tic) + "\n";
   text += "  set label 1 " + gnuplot_text(title) + " at screen 0.5, screen 0.965 center font ',11'\n";
   text += "  set label 2 " + gnuplot_text(subtitle(solution), false) +
           " at screen 0.5, screen 0.91 center font ',9'\n";
@@ -212,9 +257,12 @@ std::vector<fs::path> plot_rod(const equilibrium::Solution& solution, const std:
   }
   write("-curve.dat", rows);
   if (!solution.has_cylinder)
-    return run_gnuplot(
-        {stem, 7.0, solution.z_span < 1e-6 ? 3.6 : 5.6, strut_commands(solution, curve, title, stem)}, folder,
-        options.formats);
+    return run_gnuplot({stem, strut_is_tall(solution, curve) ? 8.4 : 7.0,
+                        solution.z_span < 1e-6           ? 4.2
+                        : strut_is_tall(solution, curve) ? 4.8
+                                                         : 5.6,
+                        strut_commands(solution, curve, title, stem)},
+                       folder, options.formats);
 
   const bool planar = solution.z_span < 1e-6;
   const std::vector<PointForce> forces = point_forces(solution);
@@ -229,9 +277,9 @@ std::vector<fs::path> plot_rod(const equilibrium::Solution& solution, const std:
   const double arrow = f_max > 0.0 ? 0.8 / f_max : 0.0;
   const Drum drum = drum_for(curve);
   const View axis = View::along_axis(), side = View::from(-M_PI / 2 + 0.5, 0.35);
-  Picture picture{stem, planar ? 7.0 : 8.5, 6.0, heading(solution, title, p_max)};
+  Picture picture{stem, planar ? 7.0 : 8.5, 6.0, heading(solution, title, p_max, options.units)};
   const auto panel = [&](const char* suffix, const View& view, bool with_rim, double left, double right) {
-    constexpr double low = 0.40, high = 0.90;
+    const double low = 0.42, high = options.units ? 0.86 : 0.90;
     const double aspect = (right - left) * picture.width / ((high - low) * picture.height);
     write(suffix, view_data(curve, solution, forces, view, drum, arrow));
     picture.body +=
@@ -241,7 +289,7 @@ std::vector<fs::path> plot_rod(const equilibrium::Solution& solution, const std:
   };
   panel("-axis.dat", axis, false, planar ? 0.13 : 0.03, planar ? 0.87 : 0.44);
   if (!planar) panel("-side.dat", side, true, 0.46, 0.87);
-  picture.body += pressure_commands(solution, stem, p_max, f_max) + "  unset multiplot\n";
+  picture.body += pressure_commands(solution, stem, p_max, f_max, options.units) + "  unset multiplot\n";
   return run_gnuplot(picture, folder, options.formats);
 }
 

@@ -25,4 +25,8 @@ std::string gnuplot_text(const std::string& text, bool enhanced = true);
 /// Commands that place the next plot, in parts of the picture.
 std::string margins(double left, double right, double bottom, double top);
 
+/// Tics at 1, 2, 5 times powers of ten on a logarithmic axis ("xtics", "y2tics" ...), which often spans less than one
+/// decade; at powers of ten alone on a long one.
+std::string log_tics(const std::string& name, double low, double high);
+
 }  // namespace windlass::output
