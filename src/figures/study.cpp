@@ -1,0 +1,58 @@
+#include "windlass/figures/study.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "windlass/output/stable_state.hpp"
+
+namespace windlass::figures {
+
+std::vector<PlannedRun> planned_runs() {
+  // From well inside the linear regime down to loose coils, in steps that show every bend of a curve on paper.
+  const std::vector<std::string> sweep{"continuation.from=40", "continuation.to=0.1",
+                                       "continuation.step_max=0.03"};
+  std::vector<PlannedRun> runs;
+  for (const char* angle : {"quarter-pi", "half-pi", "pi", "2pi", "4pi"})
+    runs.push_back({angle, std::string("capstan-") + angle, sweep, true});
+  runs.push_back({"2pi-clamped", "capstan-2pi-clamped", {}, true});
+  for (int throws = 2; throws <= 6; ++throws) {
+    const std::string turns = std::to_string(2 * throws);
+    // Tails of 12 ρ at least, so that their ends do not matter: exp(-2 √T 12) < 1e-7 for T >= 1/2.
+    runs.push_back({"knot-" + std::to_string(throws),
+                    "capstan-4pi",
+                    {"model.kind=planar", "load.angle=" + turns + " pi", "rod.length=64",
+                     "continuation.from=10", "continuation.to=0.5", "continuation.step_max=0.05"},
+                    false});
+  }
+  return runs;
+}
+
+std::string command_of(const PlannedRun& plan, const std::string& scenes, const std::string& out) {
+  std::string text = std::string("windlass ") + (plan.diagram ? "diagram " : "continue ") + scenes + "/" +
+                     plan.scene + ".toml";
+  for (const std::string& setting : plan.settings)
+    text += " --set " + (setting.find(' ') == std::string::npos ? setting : "\"" + setting + "\"");
+  return text + " --out " + out;
+}
+
+std::optional<double> StudyRun::flat_event(const std::string& type) const {
+  for (const auto& point : run.special_points)
+    if (point.branch == 1 && point.type == type) return point.T;
+  return std::nullopt;
+}
+
+double StudyRun::stable_force(double tension) const {
+  const auto force = output::stable_contact_force(run, scene, tension);
+  if (!force)
+    throw std::runtime_error(scene.name + ": no stable state was found at T = " + std::to_string(tension));
+  return *force;
+}
+
+double StudyRun::stable_log_slope(double tension) const {
+  // Central difference: truncation of order 1e-6, and the forces are good to 1e-8.
+  constexpr double step = 2e-3;
+  return std::log(stable_force(tension * std::exp(step)) / stable_force(tension * std::exp(-step))) /
+         (2.0 * step);
+}
+
+}  // namespace windlass::figures
