@@ -61,7 +61,21 @@ struct LocusRequest {
   std::optional<double> from, to;     ///< of the second parameter [dimensionless]
 };
 
-/// `stability`, `verify`, `plot`, `report`: what is done with a finished run.
+/// `fit`: the friction coefficient from measured strengths.
+struct FitRequest {
+  CommonOptions common;
+  std::filesystem::path run, csv;
+  std::string weights = "automatic";
+  std::string min_tension;  ///< points below do not take part; a number or a quantity; empty: all do
+  std::vector<std::string> formats = {"png", "svg", "pdf"};
+};
+
+struct FiguresRequest {
+  CommonOptions common;
+  std::vector<std::string> formats = {"png", "svg", "pdf"};
+};
+
+/// `stability`, `verify`, `plot`, `report`, `export`: what is done with a finished run.
 struct RunRequest {
   CommonOptions common;
   std::filesystem::path run;
@@ -69,6 +83,7 @@ struct RunRequest {
   int eigenvalues = 6;                                       ///< stability: how many
   verify::Standard standard;                                 ///< verify: what is asked of a point
   std::vector<std::string> formats = {"png", "svg", "pdf"};  ///< plot
+  std::filesystem::path csv;  ///< plot: measured points to lay over the diagram
 };
 
 struct RobustnessRequest {
@@ -90,19 +105,28 @@ int run_verify(const RunRequest& request);
 int run_plot(const RunRequest& request);
 int run_report(const RunRequest& request);
 int run_robustness(const RobustnessRequest& request);
+int run_fit(const FitRequest& request);
+int run_export(const RunRequest& request);
+int run_figures(const FiguresRequest& request);
 
 /// Declares a subcommand; its callback stores the exit status in `status`.
 using AddCommand = void(CLI::App& app, CommonOptions& common, int& status);
 AddCommand add_solve, add_continue, add_diagram, add_locus, add_stability, add_verify, add_plot, add_report,
-    add_robustness, add_scenes;
+    add_fit, add_figures, add_export, add_robustness, add_scenes, add_manual, add_completion;
 
 // ---- shared by the command files -------------------------------------------------------------------------------
 
 /// Adds --set, --out, --force, --json, --quiet to a subcommand.
 void add_common_options(CLI::App& command, CommonOptions& common);
 
+/// Adds --format to a command that draws.
+void add_format_option(CLI::App& command, std::vector<std::string>& formats);
+
 /// `runs/SCENE-NAME` unless --out says otherwise.
 std::filesystem::path output_folder(const CommonOptions& common, const scene::Scene& scene);
+
+/// Where the shipped scenes stand.
+std::filesystem::path scenes_folder();
 
 /// The scene as resolved in a run folder, with the overrides applied. @throws scene::SceneError
 scene::Scene scene_of_run(const std::filesystem::path& run, const CommonOptions& common);

@@ -21,6 +21,14 @@ void add_common_options(CLI::App& command, CommonOptions& common) {
       ->group("Common options");
 }
 
+void add_format_option(CLI::App& command, std::vector<std::string>& formats) {
+  command.add_option("--format", formats, "png, svg, pdf (repeatable)")
+      ->check(CLI::IsMember({"png", "svg", "pdf"}))
+      ->take_all()
+      ->expected(1)
+      ->capture_default_str();
+}
+
 std::filesystem::path output_folder(const CommonOptions& common, const scene::Scene& scene) {
   return common.out.empty() ? std::filesystem::path("runs") / scene.name : common.out;
 }

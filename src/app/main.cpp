@@ -63,8 +63,9 @@ int run(std::vector<std::string> arguments) {
 
   CommonOptions common;
   int status = done;
-  for (AddCommand* add : {add_solve, add_continue, add_diagram, add_locus, add_stability, add_verify,
-                          add_plot, add_report, add_robustness, add_scenes})
+  for (AddCommand* add :
+       {add_solve, add_continue, add_diagram, add_locus, add_stability, add_verify, add_plot, add_report,
+        add_fit, add_figures, add_export, add_robustness, add_scenes, add_manual, add_completion})
     add(app, common, status);
 
   if (arguments.empty()) {

@@ -11,11 +11,11 @@ void add_plot(CLI::App& app, CommonOptions& common, int& status) {
   command->footer("Needs gnuplot. Pictures go into RUN/plots unless --out says otherwise.");
   const auto request = std::make_shared<RunRequest>();
   command->add_option("RUN", request->run, "run folder")->required()->type_name("");
-  command->add_option("--format", request->formats, "png, svg, pdf (repeatable)")
-      ->check(CLI::IsMember({"png", "svg", "pdf"}))
-      ->take_all()
-      ->expected(1)
-      ->capture_default_str();
+  add_format_option(*command, request->formats);
+  command
+      ->add_option("--csv", request->csv,
+                   "measured points (T, F0) to lay over the diagram; see `windlass fit --help`")
+      ->type_name("DATA");
   add_common_options(*command, common);
   command->callback([request, &common, &status] {
     request->common = common;

@@ -1,6 +1,11 @@
+#include <fmt/format.h>
+
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 
 #include "app/commands.hpp"
 #include "windlass/equilibrium/record.hpp"
@@ -27,42 +32,92 @@ void add_stability(Solution& solution, const scene::Scene& scene) {
   solution.seconds_total = solution.seconds_solve + solution.seconds_stability;
 }
 
-void print_physical(const Solution& solution, const scene::Units& units) {
-  std::printf("  %-12s %.6g N (%.4g g hung)\n", "pull", solution.T * units.force,
-              solution.T * units.force / 9.80665e-3);
-  std::printf("  %-12s %.6g N\n", "R_tot", solution.R_tot * units.force);
-  if (solution.F0) std::printf("  %-12s %.6g N\n", "F0", *solution.F0 * units.force);
-  std::printf("  %-12s %.6g mm\n", "z_span", solution.z_span * units.length * 1e3);
+constexpr double degrees = 180.0 / M_PI;
+
+/// A quantity without dimension and, for a material scene, with its unit beside it.
+void print_quantity(const char* name, double value, const std::string& physical,
+                    const std::string& note = "") {
+  fmt::print("  {:<12} {:<20.12g} {}{}\n", name, value, physical, note);
+}
+
+/// Empty for a dimensionless scene.
+struct Physical {
+  const std::optional<scene::Units>& units;
+
+  std::string force(double value) const {
+    return units ? fmt::format("{:.6g} N  ", value * units->force) : "";
+  }
+  std::string pull(double value) const {
+    return units ? fmt::format("{:.6g} N, {:.5g} g hung  ", value * units->force,
+                               value * units->force / 9.80665e-3)
+                 : "";
+  }
+  std::string length(double value) const {
+    return units ? fmt::format("{:.6g} mm  ", value * units->length * 1e3) : "";
+  }
+  std::string moment(double value) const {
+    return units ? fmt::format("{:.6g} N mm  ", value * units->moment * 1e3) : "";
+  }
+  std::string pressure(double value) const {
+    return units ? fmt::format("{:.6g} N/mm  ", value * units->pressure * 1e-3) : "";
+  }
+};
+
+void print_contacts(const Solution& solution, const Physical& physical) {
+  for (std::size_t k = 0; k < solution.joints.size(); ++k) {
+    const auto& joint = solution.joints[k];
+    if (joint.kind == equilibrium::JointKind::touch || joint.kind == equilibrium::JointKind::edge)
+      print_quantity(joint.kind == equilibrium::JointKind::touch ? "  touch" : "  edge", joint.force,
+                     physical.force(joint.force),
+                     fmt::format("at s = {:.6g} {}", joint.s, physical.length(joint.s)));
+    if (k >= solution.arcs.size() || solution.arcs[k].kind != equilibrium::ArcKind::line) continue;
+    const auto& line = solution.arcs[k];
+    print_quantity(
+        "  line", line.force, physical.force(line.force),
+        fmt::format("pressure up to {:.6g} {}", line.p.maxCoeff(), physical.pressure(line.p.maxCoeff())));
+  }
+}
+
+void print_capstan(const Solution& solution, const Physical& physical, const std::string& error) {
+  print_quantity("T", solution.T, physical.pull(solution.T));
+  print_quantity("phi", solution.phi, fmt::format("{:.6g}°", solution.phi * degrees));
+  print_quantity("R_tot", solution.R_tot, physical.force(solution.R_tot), error);
+  if (solution.F0) print_quantity("F0", *solution.F0, physical.force(*solution.F0));
+  print_quantity("phi_star", solution.phi_star, fmt::format("{:.6g}°", solution.phi_star * degrees));
+  print_quantity("tilt", solution.tilt, fmt::format("{:.6g}°", solution.tilt * degrees));
+  print_quantity("z_span", solution.z_span, physical.length(solution.z_span));
+  fmt::print("  {:<12} {}\n", "contact", solution.topology);
+  print_contacts(solution, physical);
+}
+
+void print_strut(const Solution& solution, const Physical& physical, const std::string& error) {
+  print_quantity("end_force", solution.end_force, physical.force(solution.end_force), error);
+  print_quantity("end_moment", solution.end_moment, physical.moment(solution.end_moment));
+  print_quantity("shortening", solution.shortening, "");
 }
 
 void print_summary(const Solution& solution, const scene::Scene& scene) {
-  std::printf("%s: %s\n", scene.name.c_str(), scene.title.c_str());
-  std::printf("  %-12s %s (%s)\n", "model", solution.model.c_str(), solution.model_reason.c_str());
-  if (solution.has_cylinder) {
-    std::printf("  %-12s T = %.10g, phi = %.10g\n", "loads", solution.T, solution.phi);
-    std::printf("  %-12s %s\n", "contact", solution.topology.c_str());
-    std::printf("  %-12s %.12g (relative error about %.1e)\n", "R_tot", solution.R_tot,
-                solution.error_estimate);
-    if (solution.F0) std::printf("  %-12s %.12g\n", "F0", *solution.F0);
-    std::printf("  %-12s %.12g\n  %-12s %.6g, z_span %.6g\n", "phi_star", solution.phi_star, "tilt",
-                solution.tilt, solution.z_span);
-  } else {
-    std::printf("  %-12s %.12g (relative error about %.1e)\n", "end_force", solution.end_force,
-                solution.error_estimate);
-    std::printf("  %-12s %.12g\n  %-12s %.12g\n", "end_moment", solution.end_moment, "shortening",
-                solution.shortening);
-  }
-  std::printf("  %-12s %.12g\n", "energy", solution.energy);
+  const Physical physical{scene.units};
+  const std::string error = fmt::format("(relative error about {:.1e})", solution.error_estimate);
+  fmt::print("{}: {}\n", scene.name, scene.title);
+  fmt::print("  {:<12} {} ({})\n", "model", solution.model, solution.model_reason);
+  if (scene.units)
+    fmt::print("  {:<12} length {:.6g} mm, force EI/ρ² = {:.6g} N\n", "units", scene.units->length * 1e3,
+               scene.units->force);
+  if (solution.has_cylinder)
+    print_capstan(solution, physical, error);
+  else
+    print_strut(solution, physical, error);
+  print_quantity("energy", solution.energy, physical.moment(solution.energy));
   if (solution.stability) {
-    std::printf("  %-12s index %d%s, lowest eigenvalues", "stability", solution.stability->index,
-                solution.stability->degenerate ? " (a contact carries no force)" : "");
+    fmt::print("  {:<12} index {}{}, lowest eigenvalues", "stability", solution.stability->index,
+               solution.stability->degenerate ? " (a contact carries no force)" : "");
     for (std::size_t k = 0; k < std::min<std::size_t>(3, solution.stability->eigenvalues.size()); ++k)
-      std::printf(" %.6g", solution.stability->eigenvalues[k]);
-    std::printf("\n");
+      fmt::print(" {:.6g}", solution.stability->eigenvalues[k]);
+    fmt::print("\n");
   }
-  std::printf("  %-12s %d Newton iterations, %d unknowns, %.2f ms\n", "work", solution.newton_iterations,
-              solution.mesh.unknowns, 1e3 * solution.seconds_total);
-  if (scene.units && solution.has_cylinder) print_physical(solution, *scene.units);
+  fmt::print("  {:<12} {} Newton iterations, {} unknowns, {:.2f} ms\n", "work", solution.newton_iterations,
+             solution.mesh.unknowns, 1e3 * solution.seconds_total);
 }
 
 }  // namespace

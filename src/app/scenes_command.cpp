@@ -15,15 +15,20 @@
 
 namespace windlass::app {
 
-namespace {
-
 namespace fs = std::filesystem;
 
-/// Shipped scenes stand beside the sources the program was built from; WINDLASS_SCENES names another place.
+/// WINDLASS_SCENES names another place; an installed program (PREFIX/bin/windlass) has them in PREFIX/share; else they
+/// stand beside the sources the program was built from.
 fs::path scenes_folder() {
   if (const char* place = std::getenv("WINDLASS_SCENES"); place && *place) return place;
+  std::error_code ignored;
+  const fs::path installed =
+      fs::read_symlink("/proc/self/exe", ignored).parent_path().parent_path() / "share/windlass/scenes";
+  if (fs::is_directory(installed, ignored)) return installed;
   return fs::path(WINDLASS_SCENES_FOLDER);
 }
+
+namespace {
 
 std::vector<fs::path> scene_files(const fs::path& folder) {
   if (!fs::is_directory(folder))

@@ -1,5 +1,6 @@
 // The program explains itself, and lists what it comes with, without starting MPI.
 #include <boost/test/unit_test.hpp>
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -10,8 +11,8 @@ using namespace windlass::test;
 BOOST_AUTO_TEST_SUITE(help)
 
 BOOST_AUTO_TEST_CASE(every_command_has_a_help_text) {
-  for (const char* command :
-       {"solve", "continue", "diagram", "locus", "stability", "verify", "plot", "report", "scenes"}) {
+  for (const char* command : {"solve", "continue", "diagram", "locus", "stability", "verify", "plot",
+                              "report", "fit", "figures", "export", "scenes", "manual", "completion"}) {
     const Outcome outcome = run_program({command, "--help"});
     BOOST_TEST(outcome.status == 0, command);
     BOOST_TEST(outcome.err == "");
@@ -19,6 +20,45 @@ BOOST_AUTO_TEST_CASE(every_command_has_a_help_text) {
   }
   BOOST_TEST(run_program({"--help"}).status == 0);
   BOOST_TEST(run_program({"--version"}).out.find("windlass ") == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(the_manual_names_every_command_option_and_key) {
+  const Outcome outcome = run_program({"manual"});
+  BOOST_REQUIRE(outcome.status == 0);
+  BOOST_TEST(outcome.out.find(".TH WINDLASS 1") == 0u);
+  for (const char* part :
+       {"windlass diagram SCENE", "\\-\\-min\\-tension", "continuation.max_points", ".SH COMMON OPTIONS"})
+    BOOST_TEST(outcome.out.find(part) != std::string::npos, part);
+  if (std::system("command -v groff > /dev/null 2>&1") != 0) return;
+  const TemporaryFolder folder;
+  folder.write("page.1", outcome.out);
+  const std::string check =
+      "cd " + quoted(folder.path().string()) + " && groff -man -ww -Tutf8 page.1 > text 2> warnings";
+  BOOST_TEST(std::system(check.c_str()) == 0);
+  BOOST_TEST(slurp(folder.path() / "warnings") == "");
+}
+
+BOOST_AUTO_TEST_CASE(bash_completes_commands_options_choices_and_labels) {
+  const Outcome outcome = run_program({"completion"});
+  BOOST_REQUIRE(outcome.status == 0);
+  const TemporaryFolder folder;
+  folder.write("completion", outcome.out);
+  std::filesystem::create_directory(folder.path() / "run");
+  folder.write("run/special_points.json", "[\n  {\n    \"label\": \"B1\",\n    \"type\": \"x\"}]");
+  const auto completed = [&](const std::string& words, int at) {
+    const std::string command =
+        "cd " + quoted(folder.path().string()) + " && bash -c " +
+        quoted("source ./completion; COMP_WORDS=(" + words + "); COMP_CWORD=" + std::to_string(at) +
+               "; _windlass; echo ${COMPREPLY[@]}") +
+        " > out 2>&1";
+    BOOST_TEST(std::system(command.c_str()) == 0);
+    return slurp(folder.path() / "out");
+  };
+  BOOST_TEST(completed("windlass dia", 1) == "diagram\n");
+  BOOST_TEST(completed("windlass plot run --form", 3) == "--format\n");
+  BOOST_TEST(completed("windlass plot run --format s", 4) == "svg\n");
+  BOOST_TEST(completed("windlass locus run \"\"", 3) == "B1\n");
+  BOOST_TEST(completed("windlass solve x.toml --set load.ten", 4) == "load.tension\n");
 }
 
 BOOST_AUTO_TEST_CASE(scenes_are_listed) {

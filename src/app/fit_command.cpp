@@ -1,0 +1,42 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "app/commands.hpp"
+
+namespace windlass::app {
+
+void add_fit(CLI::App& app, CommonOptions& common, int& status) {
+  CLI::App* command = app.add_subcommand("fit", "the friction coefficient from measured sliding strengths");
+  command->footer(
+      "DATA is a CSV file with the columns T, F0 and, if wanted, F0_error. Units stand in the header:\n"
+      "  T [g], F0 [N], F0_error [N]\n"
+      "  200, 1.93, 0.05\n"
+      "Any force or hung mass will do; without units the columns are dimensionless, in EI/rho^2.\n"
+      "The least squares fit of F0 = mu R_tot(T) takes R_tot of the run's stable state at each measured T. "
+      "The\n"
+      "weights are 1/F0_error^2 where the file gives errors. Otherwise every F0 has the same error, so that "
+      "high\n"
+      "tensions decide (a ratio F0/R_tot counts like R_tot^2), or with --weights relative every ratio counts "
+      "the "
+      "same.\n"
+      "Pictures go into RUN/fit unless --out says otherwise.");
+  const auto request = std::make_shared<FitRequest>();
+  command->add_option("RUN", request->run, "run folder of a branch or diagram in load.tension")
+      ->required()
+      ->type_name("");
+  command->add_option("--csv", request->csv, "measured points")->required()->type_name("DATA");
+  command->add_option("--weights", request->weights, "automatic, absolute or relative")
+      ->check(CLI::IsMember({"automatic", "absolute", "relative"}))
+      ->capture_default_str();
+  command->add_option("--min-tension", request->min_tension, "leave out points below, e.g. 3 or \"500 g\"")
+      ->type_name("T");
+  add_format_option(*command, request->formats);
+  add_common_options(*command, common);
+  command->callback([request, &common, &status] {
+    request->common = common;
+    scene_of_run(request->run, common);  // tells a folder that is no run from one that is
+    status = run_fit(*request);
+  });
+}
+
+}  // namespace windlass::app

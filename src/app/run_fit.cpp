@@ -1,0 +1,138 @@
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "app/commands.hpp"
+#include "windlass/measurement/fit_picture.hpp"
+#include "windlass/output/stable_state.hpp"
+#include "windlass/petsc/session.hpp"
+#include "windlass/scene/error.hpp"
+#include "windlass/scene/units.hpp"
+
+namespace windlass::app {
+
+namespace {
+
+using measurement::ComparedPoint;
+using measurement::FrictionFit;
+
+measurement::Weights weights_of(const std::string& word) {
+  return word == "absolute"   ? measurement::Weights::absolute
+         : word == "relative" ? measurement::Weights::relative
+                              : measurement::Weights::automatic;
+}
+
+/// [EI/ρ²]; a plain number is dimensionless already.
+double tension_of(const std::string& text, const std::optional<scene::Units>& units) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error == std::errc() && end == text.data() + text.size()) return number;
+  try {
+    if (units) return scene::parse_quantity(text, scene::Dimension::force) / units->force;
+  } catch (const std::invalid_argument& error) {
+    throw InputError("--min-tension " + text + ": " + error.what());
+  }
+  throw InputError("--min-tension " + text + ": must be a number, since the scene is dimensionless");
+}
+
+/// The measured points with the model's forces, apart from those it has no stable state for and those of low tension.
+struct Comparison {
+  std::vector<ComparedPoint> used, below;
+  std::vector<measurement::Measurement> without_state;
+};
+
+Comparison compare(const FitRequest& request, const output::Run& run, const scene::Scene& scene) {
+  const double least = request.min_tension.empty() ? 0.0 : tension_of(request.min_tension, scene.units);
+  Comparison comparison;
+  for (const auto& measured : measurement::read_measurements(request.csv, scene.units)) {
+    const auto force = output::stable_contact_force(run, scene, measured.T);
+    if (!force || !(*force > 0.0))
+      comparison.without_state.push_back(measured);
+    else
+      (measured.T < least ? comparison.below : comparison.used).push_back({measured, *force});
+  }
+  return comparison;
+}
+
+nlohmann::ordered_json to_json(const FrictionFit& fit, const Comparison& comparison) {
+  nlohmann::ordered_json json;
+  json["mu"] = fit.mu;
+  json["standard_error"] = fit.standard_error;
+  json["interval_95"] = {fit.low, fit.high};
+  json["chi_squared"] = fit.chi_squared;
+  json["degrees_of_freedom"] = fit.degrees_of_freedom;
+  if (fit.errors_given) json["p_value"] = fit.p_value;
+  json["points"] = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < comparison.used.size(); ++i) {
+    const ComparedPoint& point = comparison.used[i];
+    json["points"].push_back({{"line", point.measured.line},
+                              {"T", point.measured.T},
+                              {"F0", point.measured.F0},
+                              {"R_tot", point.R_tot},
+                              {"residual", fit.residuals[i]}});
+  }
+  json["left_out"] = {{"low_tension", comparison.below.size()},
+                      {"no_stable_state", comparison.without_state.size()}};
+  return json;
+}
+
+void print_points(const FrictionFit& fit, const Comparison& comparison,
+                  const std::optional<scene::Units>& units) {
+  const double force = units ? units->force : 1.0;
+  const char* unit = units ? "[N]" : "[EI/ρ²]";
+  fmt::print("  {:>4}  {:>11}  {:>11}  {:>11}  {:>11}  {:>11}\n", "line", "T", "F0", "mu R_tot", "residual",
+             "F0/R_tot");
+  fmt::print("  {:>4}  {:>11}  {:>11}  {:>11}  {:>11}\n", "", unit, unit, unit, unit);
+  for (std::size_t i = 0; i < comparison.used.size(); ++i) {
+    const ComparedPoint& point = comparison.used[i];
+    fmt::print("  {:>4}  {:>11.5g}  {:>11.5g}  {:>11.5g}  {:>11.2g}  {:>11.5g}\n", point.measured.line,
+               point.measured.T * force, point.measured.F0 * force, fit.mu * point.R_tot * force,
+               fit.residuals[i] * force, point.measured.F0 / point.R_tot);
+  }
+}
+
+void print_fit(const FrictionFit& fit, const Comparison& comparison,
+               const std::optional<scene::Units>& units) {
+  fmt::print("mu = {:.5g} ± {:.2g}   (95 %: {:.5g} to {:.5g})\n", fit.mu, fit.standard_error, fit.low,
+             fit.high);
+  if (fit.errors_given)
+    fmt::print("  chi² = {:.4g} for {} degrees of freedom, p = {:.2g}{}\n", fit.chi_squared,
+               fit.degrees_of_freedom, fit.p_value,
+               fit.p_value < 0.01 ? ": the given errors do not explain the scatter" : "");
+  else
+    fmt::print("  {} degrees of freedom; the error is that of the scatter\n", fit.degrees_of_freedom);
+  print_points(fit, comparison, units);
+  if (!comparison.below.empty())
+    fmt::print("  left out below --min-tension: {} points\n", comparison.below.size());
+}
+
+}  // namespace
+
+int run_fit(const FitRequest& request) {
+  petsc::ensure_session();
+  const scene::Scene scene = scene_of_run(request.run, request.common);
+  const output::Run run = output::read_run(request.run);
+  if (!scene.has_cylinder || (scene.continuation && scene.continuation->parameter != "load.tension"))
+    throw InputError(request.run.string() +
+                     ": the fit needs a branch or diagram of a capstan in load.tension");
+  const Comparison comparison = compare(request, run, scene);
+  for (const auto& point : comparison.without_state)
+    fmt::print(stderr, "windlass: {}:{}: left out: the run has no stable state at T = {:.6g}\n",
+               request.csv.string(), point.line, point.T);
+  const FrictionFit fit = measurement::fit_friction(comparison.used, weights_of(request.weights));
+  const std::filesystem::path folder = request.common.out.empty() ? request.run / "fit" : request.common.out;
+  const auto pictures = measurement::draw_fit(run, fit, comparison.used, comparison.below, scene.units,
+                                              folder, request.formats);
+  if (request.common.json)
+    fmt::print("{}\n", to_json(fit, comparison).dump(2));
+  else if (!request.common.quiet) {
+    print_fit(fit, comparison, scene.units);
+    for (const auto& picture : pictures) fmt::print("{}\n", picture.string());
+  }
+  return done;
+}
+
+}  // namespace windlass::app
