@@ -22,8 +22,15 @@ void add_common_options(CLI::App& command, CommonOptions& common) {
 }
 
 void add_format_option(CLI::App& command, std::vector<std::string>& formats) {
-  command.add_option("--format", formats, "png, svg, pdf (repeatable)")
-      ->check(CLI::IsMember({"png", "svg", "pdf"}))
+  command.add_option("--format", formats, "png, svg, pdf (repeatable); png@80 has 80 dots an inch, not 150")
+      ->transform([](std::string word) {
+        const bool sized = word.starts_with("png@") && word.size() > 4 &&
+                           word.find_first_not_of("0123456789", 4) == std::string::npos;
+        if (!sized && word != "png" && word != "svg" && word != "pdf")
+          throw CLI::ValidationError("--format", word + ": must be one of png, png@DOTS, svg, pdf");
+        return word;
+      })
+      ->type_name("TEXT:{png,svg,pdf}")
       ->take_all()
       ->expected(1)
       ->capture_default_str();

@@ -24,20 +24,25 @@ std::string escaped(const std::string& text) {
 }
 
 std::string statement_row(const Statement& statement) {
-  const bool agrees = statement.verdict == Statement::Verdict::agrees;
-  return fmt::format("<tr><td>{}</td><td>{}{}</td><td class=\"{}\">{}</td></tr>\n", escaped(statement.paper),
-                     escaped(statement.here),
-                     statement.why.empty() ? "" : "<br><em>" + escaped(statement.why) + "</em>",
-                     agrees ? "agrees" : "differs", agrees ? "agrees" : "differs");
+  const char* verdict = statement.verdict == Statement::Verdict::agrees    ? "agrees"
+                        : statement.verdict == Statement::Verdict::differs ? "differs"
+                                                                           : "remark";
+  return fmt::format("<tr><td>{0}</td><td>{1}{2}</td><td class=\"{3}\">{3}</td></tr>\n",
+                     escaped(statement.paper), escaped(statement.here),
+                     statement.why.empty() ? "" : "<br><em>" + escaped(statement.why) + "</em>", verdict);
 }
+
+/// Extension of the files of a format such as "png@100".
+std::string extension(const std::string& format) { return format.substr(0, format.find('@')); }
 
 std::string section(const Figure& figure, const Study& study, const Canvas& canvas) {
   std::string text = fmt::format("<h2 id=\"{0}\">{1}</h2>\n", figure.stem, escaped(figure.title));
-  const std::string shown = canvas.formats.front() == "pdf" ? canvas.formats.back() : canvas.formats.front();
+  const std::string shown =
+      extension(canvas.formats.front() == "pdf" ? canvas.formats.back() : canvas.formats.front());
   text += fmt::format("<img src=\"{}.{}\" alt=\"{}\">\n<p class=\"legend\">{} ", figure.stem, shown,
                       escaped(figure.title), escaped(figure.legend));
   for (const std::string& format : canvas.formats)
-    text += fmt::format("<a href=\"{0}.{1}\">{1}</a> ", figure.stem, format);
+    text += fmt::format("<a href=\"{0}.{1}\">{1}</a> ", figure.stem, extension(format));
   text += fmt::format(
       "<a href=\"{}.gp\">script</a></p>\n<table>\n<tr><th>the paper</th><th>here</th><th></th></tr>\n",
       figure.stem);

@@ -104,7 +104,7 @@ std::vector<Statement> statements(const Study& study) {
       list.push_back({"—",
                       fmt::format("on {} a branch could not be followed beyond T = {:.3f} ({})", run, lost.T,
                                   lost.reason),
-                      Verdict::differs, "a limit of this program; the branch is an unstable one"});
+                      Verdict::remark, "a limit of this program; the branch is an unstable one"});
   list.push_back({"the sliding strength does not depend on R/r (1, 2.5, 5)",
                   "true by construction: only ρ = R + r enters", Verdict::agrees, ""});
   return list;

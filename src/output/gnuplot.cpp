@@ -17,22 +17,32 @@ namespace fs = std::filesystem;
 
 namespace {
 
+std::string extension(const std::string& format) { return format.substr(0, format.find('@')); }
+
+/// Dots an inch of the PNG: 150, or what stands after "png@".
+int dots_of(const std::vector<std::string>& formats) {
+  for (const std::string& format : formats)
+    if (format.starts_with("png@")) return std::clamp(std::atoi(format.c_str() + 4), 20, 1200);
+  return 150;
+}
+
 std::string script_text(const Picture& picture, const std::vector<std::string>& formats) {
   std::string names;
-  for (const std::string& format : formats) names += (names.empty() ? "" : " ") + format;
+  for (const std::string& format : formats) names += (names.empty() ? "" : " ") + extension(format);
+  const int dots = dots_of(formats);
   char sizes[400];
-  // one typeface and size for all formats: 11 points on paper, the PNG at 150 dots an inch
+  // one typeface and size for all formats: 11 points on paper
   std::snprintf(sizes, sizeof sizes,
                 "  if (kind eq 'png') { set terminal pngcairo enhanced rounded size %.0f,%.0f font 'DejaVu "
                 "Sans,10' fontscale "
-                "1.5 linewidth 1.5 }\n"
+                "%.3g linewidth %.3g }\n"
                 "  if (kind eq 'svg') { set terminal svg enhanced rounded size %.0f,%.0f font 'DejaVu "
                 "Sans,10' background "
                 "'white' }\n"
                 "  if (kind eq 'pdf') { set terminal pdfcairo enhanced rounded size %.2fin,%.2fin font "
                 "'DejaVu Sans,10' }\n",
-                picture.width * 150, picture.height * 150, picture.width * 96, picture.height * 96,
-                picture.width, picture.height);
+                picture.width * dots, picture.height * dots, dots / 100.0, dots / 100.0, picture.width * 96,
+                picture.height * 96, picture.width, picture.height);
   return "# Makes " + picture.stem + ".{" + names + "}: run  gnuplot " + picture.stem +
          ".gp  in this folder.\n" + "set encoding utf8\nset minussign\n" + "do for [kind in '" + names +
          "'] {\n" + sizes + "  set output '" + picture.stem + ".'.kind\n" + picture.body +
@@ -51,7 +61,8 @@ std::string shell_text(const std::string& text) {
 std::vector<fs::path> run_gnuplot(const Picture& picture, const fs::path& folder,
                                   const std::vector<std::string>& formats) {
   for (const std::string& format : formats) {
-    if (format != "png" && format != "svg" && format != "pdf") {
+    const std::string kind = extension(format);
+    if (kind != "png" && format != "svg" && format != "pdf") {
       throw OutputError("unknown picture format \"" + format + "\"; allowed are png, svg, pdf");
     }
   }
@@ -71,7 +82,8 @@ std::vector<fs::path> run_gnuplot(const Picture& picture, const fs::path& folder
   }
   if (status != 0) throw OutputError("gnuplot failed on " + (folder / script).string() + ": " + messages);
   std::vector<fs::path> pictures;
-  for (const std::string& format : formats) pictures.push_back(folder / (picture.stem + "." + format));
+  for (const std::string& format : formats)
+    pictures.push_back(folder / (picture.stem + "." + extension(format)));
   return pictures;
 }
 

@@ -69,7 +69,7 @@ Quantity horizontal_axis(const Run& run) {
     return {{run.info.extra_parameter, run.info.extra_parameter, false, 0, 0},
             [](const BranchRow& r, double) { return r.parameter.value_or(std::nan("")); }};
   }
-  if (phi_varies && !T_varies) {
+  if (phi_varies) {
     return {{"phi/pi", "capstan angle φ/π", false, 0, 0},
             [](const BranchRow& r, double) { return r.phi / std::numbers::pi; }};
   }
@@ -78,12 +78,14 @@ Quantity horizontal_axis(const Run& run) {
 
 std::vector<Quantity> capstan_quantities(const Run& run, bool against_T) {
   std::vector<Quantity> list;
+  if (!against_T && spread(run, &BranchRow::T) > 1e-9)  // a locus
+    list.push_back({{"T", "tension T  [EI/ρ²]", true, 0, 0}, [](const BranchRow& r, double) { return r.T; }});
   list.push_back({{"R_tot", "total contact force R_{tot}  [EI/ρ²]", against_T, 0, 0},
                   [](const BranchRow& r, double) { return r.R_tot; }});
   if (against_T) {
     list.push_back(
         {{"alpha", "α = dlog R_{tot} / dlog T", false, 0, 0}, [](const BranchRow&, double a) { return a; }});
-  } else {
+  } else if (list.size() == 1) {
     list.push_back(
         {{"energy", "energy  [EI/ρ]", false, 0, 0}, [](const BranchRow& r, double) { return r.energy; }});
   }

@@ -11,7 +11,7 @@ namespace windlass::figures {
 /// What the paper says, beside what comes out here.
 struct Statement {
   std::string paper, here;
-  enum class Verdict { agrees, differs } verdict = Verdict::agrees;
+  enum class Verdict { agrees, differs, remark } verdict = Verdict::agrees;
   std::string why;  ///< of a difference
 };
 

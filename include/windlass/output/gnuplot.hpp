@@ -14,7 +14,7 @@ struct Picture {
   std::string body;     ///< gnuplot commands between `set output` and its closing
 };
 
-/// Writes STEM.gp in `folder` and runs gnuplot on it there. @return the pictures made
+/// Formats are png, svg, pdf; "png@80" has 80 dots an inch instead of 150. Writes STEM.gp in `folder` and runs gnuplot on it there. @return the pictures made
 /// @throws OutputError when the script cannot be written, gnuplot is missing, or it reports an error (quoted)
 std::vector<std::filesystem::path> run_gnuplot(const Picture& picture, const std::filesystem::path& folder,
                                                const std::vector<std::string>& formats);

@@ -69,8 +69,8 @@ BOOST_AUTO_TEST_CASE(the_centreline_carries_the_state) {
         moment(m[3 * i], m[3 * i + 1], m[3 * i + 2]);
     BOOST_TEST(std::abs(tangent.norm() - 1.0) < 1e-12);
     BOOST_TEST(std::abs(tangent.dot(other)) < 1e-12);
-    // H = m²/2 + n·d3 = T along the whole rod: the interpolated state is a state of the rod.
-    BOOST_TEST(std::abs(0.5 * moment.squaredNorm() + force.dot(tangent) - T) < 2e-3);
+    // H = m²/2 + n·d3 = T along the whole rod, up to the frames between samples 0.2 ρ apart: 0.2²/8.
+    BOOST_TEST(std::abs(0.5 * moment.squaredNorm() + force.dot(tangent) - T) < 5e-3);
     if (i > 0) pressed += 0.5 * (p[i] + p[i - 1]) * (s[i] - s[i - 1]);
     if (contact[i] == 1.0) BOOST_TEST(std::abs(std::hypot(r[3 * i], r[3 * i + 1]) - 1.0) < 1e-4);
   }
