@@ -36,6 +36,7 @@ int compute(const figures::PlannedRun& plan, const fs::path& out, const CommonOp
   request.common.out = out / "runs" / plan.name;
   request.common.quiet = true;
   request.common.json = false;
+  request.eigenvalues = false;  // the index is enough here
   request.scene = scene::read_scene(scenes_folder() / (plan.scene + ".toml"), request.common.set);
   const int status = plan.diagram ? run_diagram(request) : run_continue(request);
   study[plan.name] = {
