@@ -30,7 +30,8 @@ void prepare_folder(const fs::path& folder, bool force) {
 /// One run of the study through the command that makes it. @return its exit status
 int compute(const figures::PlannedRun& plan, const fs::path& out, const CommonOptions& common,
             figures::Study& study) {
-  BranchRequest request{common, {}, std::nullopt, {}};
+  BranchRequest request;
+  request.common = common;
   request.common.set = plan.settings;
   request.common.set.insert(request.common.set.end(), common.set.begin(), common.set.end());
   request.common.out = out / "runs" / plan.name;
