@@ -84,7 +84,23 @@ void Walker::pass(Point event, std::size_t which, const std::string& name, int d
   event.next_problem = state_.problem->clone();
   event.next_x = state_.x;
   event.next_p = state_.p;
+  const double before = event.p[options_.parameter];
   queue_.push_back(std::move(event));
+  for (const double stop : {options_.target, options_.lower, options_.upper}) {
+    if (parameter(state_.p) != stop || stop == before) continue;  // entered beside the event, at a stop value
+    Point end;
+    end.type = PointType::end;
+    end.problem = state_.problem;
+    end.x = state_.x;
+    end.p = state_.p;
+    end.tangent = state_.tangent;
+    end.index = end.index_after = state_.index;
+    end.path_length = state_.path_length;
+    queue_.push_back(std::move(end));
+    pending_end_ = stop == options_.target ? End{End::Kind::target, "target reached"}
+                                           : End{End::Kind::bound, "bound reached"};
+    return;
+  }
 }
 
 // Corrects the new problem's state at p, or slightly beyond, and finds the direction in which it is valid.
@@ -93,28 +109,46 @@ bool Walker::enter(const Transition& transition, int direction, const std::strin
   const std::shared_ptr<Problem>& problem = transition.problem;
   const double step = step_length_.current() * options_.parameter_scale;
   const Vector p = state_.p;
-  std::vector<double> offsets{0.0};
-  if (transition.p.size() == p.size()) {
-    const double beside = parameter(transition.p) - p[options_.parameter];
-    offsets.insert(offsets.begin(), beside);
-    if (beside != 0.0) direction = beside < 0.0 ? -1 : 1;  // away from the event
-  }
-  for (const int sign : {direction, -direction}) {
-    for (const double size : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) offsets.push_back(sign * size * step);
-  }
-  failure = "the new problem has no solution here";
+  const double here = p[options_.parameter];
   const Options trial_options = [&] {
     Options options = options_;
     options.max_newton = std::max(options.max_newton, 15);
     return options;
   }();
-  for (const double offset : offsets) {
+  Vector guess = transition.state;
+  const auto solve_at = [&](double value, Iterate& it) {
     Vector at = p;
-    parameter(at) += offset;
-    Iterate it{transition.state, Vector::Zero(problem->size()), at, Vector::Zero(1)};
-    const CorrectorReport report = correct(*problem, fixed_parameter(*problem, options_), it, trial_options);
+    parameter(at) = value;
+    it = {guess, Vector::Zero(problem->size()), at, Vector::Zero(1)};
+    return correct(*problem, fixed_parameter(*problem, options_), it, trial_options);
+  };
+  std::vector<double> values;  // of the parameter, in the order in which they are tried
+  if (transition.p.size() == p.size()) {
+    const double beside = parameter(transition.p);
+    for (const double stop : {options_.target, options_.lower, options_.upper}) {
+      if (!((here - stop) * (beside - stop) < 0.0)) continue;
+      constexpr int steps = 8;  // back to the stop value
+      Iterate it;
+      for (int k = 1; k <= steps; ++k) {
+        if (!solve_at(k == steps ? stop : beside + (stop - beside) * k / steps, it).converged) break;
+        guess = it.x;
+        if (k == steps) values.push_back(stop);
+      }
+      if (values.empty()) guess = transition.state;
+    }
+    values.push_back(beside);
+    if (beside != here) direction = beside < here ? -1 : 1;  // away from the event
+  }
+  values.push_back(here);
+  for (const int sign : {direction, -direction}) {
+    for (const double size : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) values.push_back(here + sign * size * step);
+  }
+  failure = "the new problem has no solution here";
+  for (const double value : values) {
+    Iterate it;
+    const CorrectorReport report = solve_at(value, it);
     if (!report.converged) {
-      if (offset == 0.0) failure = "the new problem cannot be solved: " + report.failure;
+      if (value == here) failure = "the new problem cannot be solved: " + report.failure;
       continue;
     }
     try {

@@ -114,7 +114,7 @@ double length_of(Entry& entry, int link) {
 
 /// Away from the event, as far as the contacts hold: near it everything but the length is determined badly.
 void lengthen(Entry& entry, int link) {
-  constexpr double enough = 0.3, factor = 1.5;
+  constexpr double enough = 0.12, factor = 1.5;
   for (double length = factor * length_of(entry, link); length < factor * enough; length *= factor) {
     Entry longer = entry;
     try {

@@ -96,9 +96,9 @@ std::optional<Started> follow(const Started& from, const scene::Scene& scene, do
     while (const auto point = walker.step()) iterations += point->newton_iterations, reached = point->p(0);
     if (walker.end().kind == continuation::End::Kind::event)
       throw NoContact(
-          fmt::format("no equilibrium in contact: followed from {} = {:g}, the rod lifts off the "
-                      "cylinder at {:.6g}",
-                      from.problem->keys().front(), from.p(0), reached));
+          fmt::format("no equilibrium in contact exists at {} = {:g}: followed from {:g}, the rod lifts off "
+                      "the cylinder at {:.6g}",
+                      from.problem->keys().front(), goal, from.p(0), reached));
     if (walker.end().kind != continuation::End::Kind::target) {
       failure = fmt::format("followed from {} = {:g}, the branch ends: {}", from.problem->keys().front(),
                             from.p(0), walker.end().reason);
