@@ -7,6 +7,26 @@
 
 namespace continuation {
 
+namespace {
+
+// Where f does not exist at x inside [b, c]: moves both ends as close to x as f allows.
+void close_in(double x, double& b, double& fb, double& c, double& fc,
+              const std::function<std::optional<double>(double)>& f) {
+  const auto approach = [&](double& end, double& value) {
+    for (const double part : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1}) {
+      const double near = x + part * (end - x);
+      const std::optional<double> there = f(near);
+      if (!there || !std::isfinite(*there)) continue;
+      if (*there != 0.0 && (*there > 0.0) == (value > 0.0)) end = near, value = *there;
+      return;
+    }
+  };
+  approach(b, fb);
+  approach(c, fc);
+}
+
+}  // namespace
+
 // Brent 1973, Algorithms for Minimization without Derivatives, ch. 4 (zeroin): [b, c] holds the zero, |f(b)|
 // <= |f(c)|.
 Bracket find_zero(double lo, double f_lo, double hi, double f_hi, double tolerance,
@@ -61,7 +81,10 @@ Bracket find_zero(double lo, double f_lo, double hi, double f_hi, double toleran
     }
     const double next = b + (std::abs(d) > reach ? d : std::copysign(reach, half));
     const std::optional<double> value = f(next);
-    if (!value || !std::isfinite(*value)) break;
+    if (!value || !std::isfinite(*value)) {
+      close_in(next, b, fb, c, fc, f);
+      break;
+    }
     a = b;
     fa = fb;
     b = next;

@@ -14,7 +14,7 @@ bool same_fingerprint(const Vector& a, const Vector& b, double tolerance) {
 }
 
 std::optional<Arm> start_arm(const Point& branch_point, const Tangent& direction, double epsilon,
-                             const Options& options, std::string& failure) {
+                             const Options& options, ArmFailure& failure) {
   const double scale = options.parameter_scale;
   try {
     Arm arm;
@@ -23,17 +23,17 @@ std::optional<Arm> start_arm(const Point& branch_point, const Tangent& direction
     patient.max_newton = std::max(options.max_newton, 15);
     Segment segment(arm.problem, patient, branch_point.x, branch_point.p, direction);
     Sample* sample = segment.at(epsilon, true);
-    if (!sample) return failure = segment.failure(), std::nullopt;
+    if (!sample) return failure = {segment.failure()}, std::nullopt;
     const Tangent way{sample->it.u, sample->it.y[0]};
     const double length = std::sqrt(inner(*arm.problem, way, way, scale));
     const double along = std::abs(inner(*arm.problem, way, direction, scale)) / length;
     const double known = std::abs(inner(*arm.problem, way, branch_point.tangent, scale)) / length;
     if (along < 0.8 || (branch_point.branch_point && along <= known))
-      return failure = "the solution found is not on the arm", std::nullopt;
+      return failure = {"the solution found is not on the arm"}, std::nullopt;
     segment.add_events(*sample);
     for (const EventFunction& event : sample->events) {
       if (event.value < -options.event_zero)
-        return failure = "the arm is not valid: event " + event.name + " is negative on it", std::nullopt;
+        return failure = {"event " + event.name + " is negative on it", true}, std::nullopt;
     }
     arm.x = sample->it.x;
     arm.p = sample->it.p;
@@ -41,9 +41,9 @@ std::optional<Arm> start_arm(const Point& branch_point, const Tangent& direction
     arm.epsilon = epsilon;
     return arm;
   } catch (const std::domain_error& error) {
-    failure = error.what();
+    failure = {error.what()};
   } catch (const std::runtime_error& error) {
-    failure = error.what();
+    failure = {error.what()};
   }
   return std::nullopt;
 }
@@ -73,14 +73,15 @@ Arms switch_branch(const Point& branch_point, const Options& options) {
     for (const int sign : {1, -1}) {
       const Tangent direction{sign * directions[i].x, sign * directions[i].p};
       std::optional<Arm> arm;
-      std::string failure;
+      ArmFailure failure;
       for (const double part : {0.2, 0.05, 0.5, 0.01, 1e-3}) {
         arm = start_arm(branch_point, direction, part * options.step, options, failure);
         if (arm) break;
       }
       if (!arm) {
-        arms.failures.push_back("direction " + std::to_string(i + 1) + (sign > 0 ? " (+): " : " (-): ") +
-                                failure);
+        auto& list = failure.inadmissible ? arms.inadmissible : arms.failures;
+        list.push_back("direction " + std::to_string(i + 1) + (sign > 0 ? " (+): " : " (-): ") +
+                       failure.reason);
         continue;
       }
       const Vector fingerprint = arm->problem->fingerprint(arm->x, arm->p);

@@ -96,14 +96,18 @@ std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, co
     };
     const Bracket bracket = find_zero(0.0, sign * first->value, top->s, sign * find(top->events, name)->value,
                                       tolerance(segment), value);
-    Sample* best = segment.at(bracket.best, false);
-    if (!best) best = &segment.base();
-    event.sample = *best;
-    event.s = bracket.best;
+    // Where the equations are singular right at the event, its bracket is as narrow as they allow; the state before it
+    // is the valid one.
+    event.s = bracket.converged ? bracket.best : bracket.lo;
+    Sample* best = segment.at(event.s, false);
+    event.sample = best ? *best : segment.base();
     event.lo = bracket.lo;
     event.hi = bracket.hi;
     event.precision = width(segment, bracket.lo, bracket.hi);
-    if (!bracket.converged) event.note = "bracket not converged: " + segment.failure();
+    constexpr double narrow = 1e-5;
+    if (!bracket.converged && event.precision > narrow) {
+      event.note = "bracket not converged: " + segment.failure();
+    }
     found = std::move(event);
     // Another event may have changed sign before this one.
     Sample* below = segment.at(bracket.lo, false);

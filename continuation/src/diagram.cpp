@@ -118,6 +118,8 @@ class Tracer {
       }
       Arms arms = switch_branch(point, options_);
       for (const std::string& failure : arms.failures) diagram().lost.push_back(point.label + ": " + failure);
+      for (const std::string& arm : arms.inadmissible)
+        diagram().inadmissible.push_back(point.label + ": " + arm);
       for (Arm& arm : arms.arms) state_.pending.push_back({std::move(arm), i, depth + 1, false});
     }
   }
@@ -130,7 +132,7 @@ class Tracer {
     if (fingerprint.size() != origin.fingerprint.size()) return false;
     const double moved = (fingerprint - origin.fingerprint).norm() + (arm.p - origin.point.p).norm();
     for (std::size_t i = 0; i < origin.arrivals.size(); ++i) {
-      std::string failure;
+      ArmFailure failure;
       const std::optional<Arm> back =
           start_arm(origin.arrival_points[i], origin.arrivals[i], arm.epsilon, options_, failure);
       if (!back) continue;

@@ -191,14 +191,15 @@ output::Timings BranchRecorder::timings() const {
   return {points_, continuation_, stability_, earlier_ + now};
 }
 
-int BranchRecorder::finish(const std::vector<std::string>& lost, bool quiet, bool json) {
+int BranchRecorder::finish(const continuation::Diagram& diagram, bool quiet, bool json) {
   pause();
   progress_.finish();
   nlohmann::ordered_json summary;
   summary["points"] = points_;
   summary["special_points"] = writer_.special_points().size();
-  summary["lost"] = lost;
-  const bool incomplete = !lost.empty() || lost_ > 0;
+  summary["lost"] = diagram.lost;
+  summary["inadmissible"] = diagram.inadmissible;
+  const bool incomplete = !diagram.lost.empty() || lost_ > 0;
   writer_.finish(stopped_ ? "interrupted" : incomplete ? "incomplete" : "finished", timings(), summary);
   if (json) {
     nlohmann::ordered_json out = output::to_json(writer_.info());
@@ -209,7 +210,9 @@ int BranchRecorder::finish(const std::vector<std::string>& lost, bool quiet, boo
     std::printf("%d points, %zu special points, %.3f ms a point (spectra %.3f ms a point more) -> %s\n",
                 points_, writer_.special_points().size(), 1e3 * continuation_ / std::max(1, points_),
                 1e3 * stability_ / std::max(1, points_), writer_.folder().string().c_str());
-    for (const std::string& reason : lost) std::printf("lost: %s\n", reason.c_str());
+    for (const std::string& arm : diagram.inadmissible)
+      std::printf("no arm: %s\n", arm.c_str());
+    for (const std::string& reason : diagram.lost) std::printf("lost: %s\n", reason.c_str());
   }
   return stopped_ ? interrupted : incomplete ? not_finished : done;
 }

@@ -29,7 +29,7 @@ class BranchRecorder final : public continuation::DiagramObserver {
   /// Starts the clock of the computation; call it right before the walk.
   void start_clock() { resumed_ = Clock::now(); }
   /// Final commit. @return exit status
-  int finish(const std::vector<std::string>& lost, bool quiet, bool json);
+  int finish(const continuation::Diagram& diagram, bool quiet, bool json);
 
  private:
   using Clock = std::chrono::steady_clock;

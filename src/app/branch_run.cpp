@@ -122,7 +122,7 @@ int run_branches(const BranchRequest& request, const std::string& command,
     BranchRecorder recorder(writer, codec, request.eigenvalues, request.common.quiet);
     recorder.start_clock();
     const continuation::Diagram diagram = walk(recorder);
-    return recorder.finish(diagram.lost, request.common.quiet, request.common.json);
+    return recorder.finish(diagram, request.common.quiet, request.common.json);
   };
   if (found.checkpoint) {
     continuation::DiagramState state = restored(*found.checkpoint, folder, setup, codec);

@@ -66,8 +66,10 @@ Chain::Numbering Chain::number(Purpose purpose) const {
     const bool kept =
         joint.locates() && (purpose == Purpose::equilibrium || joint.kind() == JointKind::touch);
     n.arclength.push_back(kept ? n.size++ : -1);
-    // A touch at the symmetry point holds its location (sliding is pinned), but its direction of maximum counts.
-    n.constraints += kept || (odd_end && joint.kind() == JointKind::touch);
+    // A touch at the mid-point holds its location (sliding is pinned), but its direction of maximum counts, except in
+    // the even variations of a half chain, in which it does not slide.
+    const bool held = joint.kind() == JointKind::touch && !joint.locates() && (odd_end || j > 0);
+    n.constraints += kept || (purpose != Purpose::equilibrium && held);
   }
   n.geometric = n.size;
   for (const Link& link : links_) {

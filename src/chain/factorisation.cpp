@@ -18,23 +18,43 @@ using contact::SmallVector;
 
 namespace {
 
-/// Number of negative eigenvalues of a symmetric matrix, by Bunch-Kaufman factorisation (LAPACK dsytrf).
+/// Number of negative eigenvalues of a symmetric matrix, by Bunch-Kaufman factorisation (LAPACK dsytrf). A neutral
+/// motion's is zero, whatever the sign of its rounding.
 int negative_eigenvalues(MatrixXd a) {
   int n = static_cast<int>(a.rows()), info = 0, work_size = 64 * std::max(n, 1);
   if (n == 0) return 0;
+  const double zero = 1e-10 * a.cwiseAbs().maxCoeff();
   std::vector<int> pivot(n);
   VectorXd work(work_size);
   dsytrf_("L", &n, a.data(), &n, pivot.data(), work.data(), &work_size, &info);
   int negative = 0;
   for (int k = 0; k < n; ++k) {
     if (pivot[k] > 0) {
-      negative += a(k, k) < 0.0;
+      negative += a(k, k) < -zero;
     } else {  // a 2×2 pivot has one eigenvalue of each sign
       ++negative;
       ++k;
     }
   }
   return negative;
+}
+
+/// Is a factorised matrix singular but for the error that Newton's method has left? A neutral motion's pivot is as small
+/// as that.
+bool is_singular(const Eigen::PartialPivLU<MatrixXd>& lu) {
+  constexpr double left = 1e-8;
+  const auto pivots = lu.matrixLU().diagonal().cwiseAbs();
+  return pivots.minCoeff() < left * pivots.maxCoeff();
+}
+
+/// A singular matrix with its null vector v and left null vector u made regular: its solutions are those of the
+/// singular system, without a part along v, so that Newton does not wander along a neutral motion.
+MatrixXd without_neutral_motion(const MatrixXd& singular) {
+  const Eigen::JacobiSVD<MatrixXd> svd(singular, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const VectorXd u = svd.matrixU().rightCols<1>(), v = svd.matrixV().rightCols<1>();
+  // The determinant's sign must not depend on that of u.
+  const double orientation = u.dot(v) < 0.0 ? -1.0 : 1.0;
+  return singular + orientation * svd.singularValues()(0) * u * v.transpose();
 }
 
 }  // namespace
@@ -181,6 +201,7 @@ void Chain::factor(const VectorXd& x, const Loads& loads, const MatrixXd& b, con
   }
   if (!dense.allFinite()) throw std::domain_error("the chain's matrix is not finite");
   if (dense.rows() > 0) dense_.compute(dense);
+  if (neutral_turn_ && dense.rows() > 0 && is_singular(dense_)) dense_.compute(without_neutral_motion(dense));
   int negative = 0;
   for (const Link& link : links_) negative += link.arc->negative_pivots();
   determinant_sign_ = negative % 2 == 0 ? 1 : -1;

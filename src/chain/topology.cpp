@@ -1,5 +1,7 @@
 #include "windlass/chain/topology.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -40,7 +42,10 @@ std::unique_ptr<Joint> first_joint(const RodKind& rod, const Topology& t) {
 
 std::unique_ptr<Joint> marker(const RodKind& rod, const Topology& t) {
   const bool held = rod.clamped || rod.strut || !rod.isotropic_straight();
-  if (t.mid_touch) throw std::invalid_argument("a full chain with a touch at its mid-point is not supported");
+  if (t.mid_touch) {
+    if (rod.spatial) return std::make_unique<spatial::MarkerTouch>(held);
+    return std::make_unique<planar::MarkerTouch>();
+  }
   if (t.right.front() == Stretch::line) {
     if (rod.spatial) return std::make_unique<spatial::MarkerLine>(held);
     return std::make_unique<planar::MidLine>();
@@ -83,6 +88,18 @@ std::unique_ptr<Arc> make_arc(const RodKind& rod, Stretch stretch, const ArcMesh
     return bvp::make_collocation_arc(rod::PlanarDensity{rod.bending_stiffness}, mesh.nodes, mesh.stages);
   return bvp::make_collocation_arc(rod::KirchhoffDensity{rod.stiffness, rod.natural}, mesh.nodes,
                                    mesh.stages);
+}
+
+/// May the whole rod turn at no cost? A flat loop between two touches turns about the pulls that lie along one line
+/// (odd under the half-turn), a bight hung over one touch about the normal there if the pulls are parallel. A line contact
+/// alone is about to become one of the two.
+bool turns_freely(const RodKind& rod, const Topology& t) {
+  const double half_turns = rod.pull_angle / M_PI, whole = std::round(half_turns);
+  if (!(std::abs(half_turns - whole) < 1e-9)) return false;
+  const std::vector<Stretch> all = stretches(t);
+  const auto has = [&](Stretch kind) { return std::find(all.begin(), all.end(), kind) != all.end(); };
+  if (std::remainder(whole, 2.0) == 0.0) return !t.half && !(has(Stretch::line) && has(Stretch::gap));
+  return !has(Stretch::gap) && (t.mid_touch || has(Stretch::line));
 }
 
 }  // namespace
@@ -148,7 +165,9 @@ std::unique_ptr<Chain> build_chain(const RodKind& rod, const Topology& t,
     if (all[i] == Stretch::tail && !rod.strut) link.pull = i >= left_count ? 1 : -1;
     links.push_back(std::move(link));
   }
-  return std::make_unique<Chain>(std::move(joints), std::move(fixed), std::move(links));
+  auto chain = std::make_unique<Chain>(std::move(joints), std::move(fixed), std::move(links));
+  if (turns_freely(rod, t)) chain->expect_neutral_turn();
+  return chain;
 }
 
 }  // namespace windlass::chain

@@ -59,13 +59,12 @@ Vector3d surface_coordinates(const rod::Quaternion& q, double a) {
 }
 
 Attachment Touch::attach(Side, const double* w, const Loads&) const {
-  const int spin = tangent() - 3;
   Attachment at = sized(4, 3, 3, tangent());
   at.q = Eigen::Map<const Eigen::Vector4d>(w + 2);
   at.dq.rightCols(3).setIdentity();
   at.x = place(w[0], w[1]);
   at.dx.col(0) = along(w[0]);
-  if (spin == 2) at.dx(2, 1) = 1.0;
+  at.dx(2, 1) = 1.0;
   return at;
 }
 
@@ -86,22 +85,21 @@ Joint::Location Touch::location(const double* w, const SmallVector&, const Small
 }
 
 void Touch::retract(const double* w, const double* dw, double* out) const {
-  const int spin = tangent() - 3;
   out[0] = w[0] + dw[0];
-  out[1] = w[1] + (pinned_ ? 0.0 : dw[1]);
+  out[1] = w[1] + dw[1];
   Eigen::Map<Eigen::Vector4d>(out + 2) =
-      rod::retract(Eigen::Map<const Eigen::Vector4d>(w + 2), Vector3d(dw + spin));
+      rod::retract(Eigen::Map<const Eigen::Vector4d>(w + 2), Vector3d(dw + 2));
 }
 
 Attachment Edge::attach(Side side, const double* w, const Loads&) const {
-  const int psi = tangent() - 2;  // place of ψ among the coordinates
+  constexpr int psi = 2;  // place of ψ among the coordinates
   if (side == line_) {
     Attachment at = sized(2, 2, 2, tangent());
     at.q << w[2], w[3];
     at.dq.rightCols(2).setIdentity();
     at.x << w[0], w[1];
     at.dx(0, 0) = 1.0;
-    if (!pinned_) at.dx(1, 1) = 1.0;
+    at.dx(1, 1) = 1.0;
     return at;
   }
   Attachment at = sized(4, 3, 3, tangent());
@@ -112,14 +110,14 @@ Attachment Edge::attach(Side side, const double* w, const Loads&) const {
   at.dq.col(psi + 1) = spins.col(2);
   at.x = place(w[0], w[1]);
   at.dx.col(0) = along(w[0]);
-  if (!pinned_) at.dx(2, 1) = 1.0;
+  at.dx(2, 1) = 1.0;
   return at;
 }
 
 void Edge::curvature(Side side, const double* w, const Loads&, const SmallVector& g_q, const SmallVector& f,
                      SmallMatrix& out) const {
   if (side == line_) return;
-  const int i = tangent() - 2;
+  constexpr int i = 2;  // place of ψ among the coordinates
   const double cp = std::cos(w[2]), sp = std::sin(w[2]), cc = std::cos(w[3]), sc = std::sin(w[3]);
   const Vector3d g = g_q;
   out(0, i) += 0.5 * g.dot(Vector3d(sp * sc, sp * cc, cp));
@@ -129,7 +127,7 @@ void Edge::curvature(Side side, const double* w, const Loads&, const SmallVector
 }
 
 Joint::Location Edge::location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const {
-  const int i = tangent() - 2;
+  constexpr int i = 2;  // place of ψ among the coordinates
   const bool free_right = line_ == Side::left;
   const double factor = free_right ? -0.5 : 0.5;  // the gradient is ∓2 m in the body frame
   const Vector3d moment = factor * (free_right ? g_right : g_left);
@@ -146,9 +144,9 @@ Joint::Location Edge::location(const double* w, const SmallVector& g_left, const
 }
 
 void Edge::retract(const double* w, const double* dw, double* out) const {
-  const int i = tangent() - 2;
+  constexpr int i = 2;  // place of ψ among the coordinates
   out[0] = w[0] + dw[0];
-  out[1] = w[1] + (pinned_ ? 0.0 : dw[1]);
+  out[1] = w[1] + dw[1];
   out[2] = w[2] + dw[i];
   out[3] = w[3] + dw[i + 1];
 }
@@ -193,6 +191,28 @@ void MarkerGap::retract(const double* w, const double* dw, double* out) const {
   const Vector3d v(dw[k], dw[k + 1], twist_held_ ? dw[k + 2] : 0.0);
   Eigen::Map<Eigen::Vector4d> turned(out + k);
   turned = rod::retract(Eigen::Map<const Eigen::Vector4d>(w + k), v);
+}
+
+Attachment MarkerTouch::attach(Side, const double* w, const Loads&) const {
+  const int spins = tangent() - 1;
+  Attachment at = sized(4, 3, 3, tangent());
+  at.q = Eigen::Map<const Eigen::Vector4d>(w + 1);
+  at.dq.topRightCorner(spins, spins).setIdentity();
+  at.x = place(w[0], 0.0);
+  at.dx.col(0) = along(w[0]);
+  return at;
+}
+
+void MarkerTouch::curvature(Side, const double* w, const Loads&, const SmallVector&, const SmallVector& f,
+                            SmallMatrix& out) const {
+  out(0, 0) -= f.dot(outward(w[0]));
+}
+
+void MarkerTouch::retract(const double* w, const double* dw, double* out) const {
+  out[0] = w[0] + dw[0];
+  const Vector3d v(dw[1], dw[2], twist_held_ ? dw[3] : 0.0);
+  Eigen::Map<Eigen::Vector4d> turned(out + 1);
+  turned = rod::retract(Eigen::Map<const Eigen::Vector4d>(w + 1), v);
 }
 
 Attachment MidGap::attach(Side, const double* w, const Loads&) const {
@@ -267,7 +287,7 @@ Attachment End::attach(Side, const double* w, const Loads& loads) const {
 
 void End::retract(const double* w, const double* dw, double* out) const {
   if (clamped_) return;
-  const Vector3d v(dw[0], dw[1], pinned_ ? 0.0 : dw[2]);
+  const Vector3d v(dw[0], dw[1], dw[2]);
   Eigen::Map<Eigen::Vector4d> turned(out);
   turned = rod::retract(Eigen::Map<const Eigen::Vector4d>(w), v);
 }
@@ -315,6 +335,11 @@ void MarkerGap::adopt(const Place& place, double* w) const {
   const int k = places();
   for (int i = 0; i < k; ++i) w[i] = place.r(2 - k + i);
   Eigen::Map<Eigen::Vector4d>{w + k} = place.q;
+}
+
+void MarkerTouch::adopt(const Place& place, double* w) const {
+  w[0] = place.angle;
+  Eigen::Map<Eigen::Vector4d>{w + 1} = place.q;
 }
 
 void MidGap::adopt(const Place& place, double* w) const {

@@ -130,7 +130,7 @@ void assemble(const chain::Profile& shape, const Topology& topology, bool infini
     joints.insert(joints.end(), contacts.begin(), contacts.end());
     arcs = std::move(all);
     contacts = std::move(joints);
-  } else {  // the mid-point of a full chain is no joint
+  } else if (!topology.mid_touch) {  // the mid-point of a full chain is no joint
     const std::size_t marker = topology.left.size();
     append(arcs[marker - 1], arcs[marker]);
     arcs.erase(arcs.begin() + static_cast<std::ptrdiff_t>(marker));

@@ -51,6 +51,7 @@ chain::RodKind rod_of(const scene::Scene& scene, bool spatial) {
   rod.infinite = scene.rod.infinite();
   rod.strut = !scene.has_cylinder;
   rod.under_thrust = !scene.ends.shortening.has_value();
+  if (spatial && scene.has_cylinder && !rod.clamped) rod.pull_angle = scene.load.angle;
   rod.bending_stiffness = scene.rod.bending_stiffness;
   rod.stiffness = {scene.rod.bending_stiffness, scene.rod.bending_stiffness_2,
                    scene.rod.twist_ratio * scene.rod.bending_stiffness};
@@ -71,6 +72,7 @@ RodProblem::RodProblem(scene::Scene scene, bool spatial, Topology topology,
 
 void RodProblem::rebuild() {
   rod_ = rod_of(scene_, spatial_);
+  if (std::find(keys_.begin(), keys_.end(), "load.angle") != keys_.end()) rod_.pull_angle = NAN;
   base_ = loads_of(scene_);
   chain_ = chain::build_chain(rod_, topology_, meshes_);
   finer_.reset();

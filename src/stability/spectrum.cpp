@@ -19,6 +19,9 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 namespace {
 
+/// Eigenvalues of neutral motions are zero to rounding [EI/ρ]: they do not count as negative.
+constexpr double neutral = 1e-11;
+
 double largest_row_sum(const Sparse& matrix) {
   VectorXd sums = VectorXd::Zero(matrix.rows());
   for (Index k = 0; k < matrix.outerSize(); ++k)
@@ -31,7 +34,7 @@ Spectrum ordered(const Chain::SecondVariation& variation, const EigenPairs& pair
   std::vector<Index> order(pairs.values.size());
   std::iota(order.begin(), order.end(), Index{0});
   std::sort(order.begin(), order.end(), [&](Index a, Index b) { return pairs.values(a) < pairs.values(b); });
-  const Index negative = (pairs.values.array() < pairs.shift).count();
+  const Index negative = (pairs.values.array() < std::min(pairs.shift, -neutral)).count();
   const Index kept = std::min<Index>(order.size(), std::max<Index>(count, negative));
   Spectrum out;
   out.index = static_cast<int>(negative);

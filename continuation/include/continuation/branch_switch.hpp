@@ -20,7 +20,8 @@ struct Arm {
 
 struct Arms {
   std::vector<Arm> arms;
-  std::vector<std::string> failures;  ///< directions in which no arm was found, with the reason
+  std::vector<std::string> failures;      ///< directions in which no arm was found, with the reason
+  std::vector<std::string> inadmissible;  ///< arms on which an event function is negative from the start
 };
 
 /// All arms that leave a branch point, the branch it was found on excepted.
@@ -31,9 +32,15 @@ struct Arms {
 /// direction and all its events are positive. Arms with equal fingerprints are named once.
 Arms switch_branch(const Point& branch_point, const Options& options);
 
+/// Why an arm could not be started.
+struct ArmFailure {
+  std::string reason;
+  bool inadmissible = false;  ///< the arm exists as a solution, but an event function is negative on it
+};
+
 /// One such start; nullopt with the reason if there is none.
 std::optional<Arm> start_arm(const Point& branch_point, const Tangent& direction, double epsilon,
-                             const Options& options, std::string& failure);
+                             const Options& options, ArmFailure& failure);
 
 /// rms(a − b) <= tolerance · max(1, rms a), and equal lengths.
 bool same_fingerprint(const Vector& a, const Vector& b, double tolerance);

@@ -37,8 +37,9 @@ struct Diagram {
   std::vector<Branch> branches;
   std::vector<SpecialPoint> specials;
   std::vector<std::string>
-      lost;              ///< what failed: lost branches, arms that could not be started, limits reached
-  bool stopped = false;  ///< by should_stop
+      lost;  ///< what failed: lost branches, arms that could not be started, limits reached
+  std::vector<std::string> inadmissible;  ///< arms of branch points on which an event function is negative
+  bool stopped = false;                   ///< by should_stop
 };
 
 /// A branch not walked yet: the first one, its other direction, or an arm of a branch point.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct RodKind {
   bool infinite = false;      ///< closed-form tails
   bool strut = false;         ///< no cylinder: clamped along e_x
   bool under_thrust = false;  ///< strut: thrust given, else shortening
+  double pull_angle =
+      NAN;  ///< between the pulls, for a rod that they leave free to turn [rad]; NaN: it varies
   double bending_stiffness = 1.0;
   Eigen::Vector3d stiffness = {1.0, 1.0, 2.0 / 3.0};
   Eigen::Vector3d natural = Eigen::Vector3d::Zero();

@@ -22,7 +22,7 @@ class VectorJoint : public Joint {
 
 /// Isolated touch: w = (a, θ), arclength unknown.
 /// Equations 3: tangential force balance, moment continuity, tangency sin(a − θ) = 0. Force by the normal balance.
-class Touch final : public VectorJoint {
+class Touch : public VectorJoint {
  public:
   JointKind kind() const override { return JointKind::touch; }
   int tangent() const override { return 2; }
@@ -33,6 +33,13 @@ class Touch final : public VectorJoint {
   Location location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const override;
   double angle(const double* w) const override { return w[0]; }
   void adopt(const Place& place, double* w) const override { w[0] = place.angle, w[1] = place.heading; }
+};
+
+/// The mid-point of a full chain on a touch: sliding is held, s = 0, and tangency follows, because a rod free to slide
+/// under equal pulls has the same H = n·t + m²/2B left and right of the touch, whose force then does no work.
+class MarkerTouch final : public Touch {
+ public:
+  bool locates() const override { return false; }
 };
 
 /// End of a line contact: w = (a), arclength unknown.

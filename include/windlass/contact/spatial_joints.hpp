@@ -25,13 +25,12 @@ class VectorJoint : public Joint {
 };
 
 /// Isolated touch: w = (a, z, q), 5 degrees of freedom, arclength unknown.
-/// Equations 6: tangential forces (2), moments (3), tangency d₃·N = 0. `pin_height` holds z (see Chain).
+/// Equations 6: tangential forces (2), moments (3), tangency d₃·N = 0.
 class Touch final : public Joint {
  public:
-  explicit Touch(bool pin_height = false) : pinned_(pin_height) {}
   JointKind kind() const override { return JointKind::touch; }
   int ambient() const override { return 6; }
-  int tangent() const override { return pinned_ ? 4 : 5; }
+  int tangent() const override { return 5; }
   bool locates() const override { return true; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
@@ -41,9 +40,6 @@ class Touch final : public Joint {
   double angle(const double* w) const override { return w[0]; }
   double height(const double* w) const override { return w[1]; }
   void adopt(const Place& place, double* w) const override;
-
- private:
-  bool pinned_;
 };
 
 /// Edge of a line contact: w = (a, z, ψ, χ), 4 degrees of freedom, arclength unknown.
@@ -51,11 +47,10 @@ class Touch final : public Joint {
 /// free arc equal to the surface's).
 class Edge final : public VectorJoint {
  public:
-  Edge(Side line_side, double bending_stiffness, bool pin_height = false)
-      : line_(line_side), stiffness_(bending_stiffness), pinned_(pin_height) {}
+  Edge(Side line_side, double bending_stiffness) : line_(line_side), stiffness_(bending_stiffness) {}
   JointKind kind() const override { return JointKind::edge; }
   int ambient() const override { return 4; }
-  int tangent() const override { return pinned_ ? 3 : 4; }
+  int tangent() const override { return 4; }
   bool locates() const override { return true; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
@@ -70,7 +65,6 @@ class Edge final : public VectorJoint {
  private:
   Side line_;
   double stiffness_;
-  bool pinned_;
 };
 
 /// Half-turn point on a line contact: a = z = χ = 0, w = (ψ). Odd variations: χ when twist is held (clamped ends).
@@ -120,6 +114,25 @@ class MarkerGap final : public Joint {
   bool twist_held_, along_;
 };
 
+/// The mid-point of a full chain on a touch: w = (a, q), with s = z = 0 held, and the spin about d₃ unless twist is held.
+/// 4 or 3 degrees of freedom; tangency follows (see contact::planar::MarkerTouch).
+class MarkerTouch final : public Joint {
+ public:
+  explicit MarkerTouch(bool twist_held) : twist_held_(twist_held) {}
+  JointKind kind() const override { return JointKind::touch; }
+  int ambient() const override { return 5; }
+  int tangent() const override { return twist_held_ ? 4 : 3; }
+  Attachment attach(Side side, const double* w, const Loads& loads) const override;
+  void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
+                 SmallMatrix& out) const override;
+  void retract(const double* w, const double* dw, double* out) const override;
+  double angle(const double* w) const override { return w[0]; }
+  void adopt(const Place& place, double* w) const override;
+
+ private:
+  bool twist_held_;
+};
+
 /// Half-turn point on a free arc: r = (0, y, 0), frame turned by ψ about the half-turn axis e_y; w = (y, ψ).
 /// Odd variations: spins about d₂ and d₃; x and z where no rigid motion is to be pinned.
 class MidGap final : public VectorJoint {
@@ -160,22 +173,20 @@ class MidTouch final : public VectorJoint {
   bool twist_held_;
 };
 
-/// Rod end under the dead pull. moment_free: w = (q), 3 degrees of freedom, or 2 with the rigid spin pinned (full
-/// chain of an isotropic rod). clamped: frame along the pull, as in the untwisted planar rod.
+/// Rod end under the dead pull. moment_free: w = (q), 3 degrees of freedom. clamped: frame along the pull, as in the untwisted planar rod.
 class End final : public Joint {
  public:
-  End(Side arc_side, bool clamped, bool pin_spin = false)
-      : arc_(arc_side), clamped_(clamped), pinned_(pin_spin) {}
+  End(Side arc_side, bool clamped) : arc_(arc_side), clamped_(clamped) {}
   JointKind kind() const override { return JointKind::end; }
   int ambient() const override { return clamped_ ? 0 : 4; }
-  int tangent() const override { return clamped_ ? 0 : pinned_ ? 2 : 3; }
+  int tangent() const override { return clamped_ ? 0 : 3; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   void retract(const double* w, const double* dw, double* out) const override;
   void adopt(const Place& place, double* w) const override;
 
  private:
   Side arc_;
-  bool clamped_, pinned_;
+  bool clamped_;
 };
 
 /// Clamped end of a strut along e_x: frame turned by ±twist/2 about e_x, y = z = 0. x is imposed by the shortening,

@@ -119,7 +119,8 @@ BOOST_AUTO_TEST_CASE(attachments_of_planar_joints) {
 BOOST_AUTO_TEST_CASE(attachments_of_spatial_joints) {
   using namespace contact::spatial;
   check("touch", Touch(), {Side::left, Side::right});
-  check("touch, height pinned", Touch(true), {Side::left, Side::right});
+  check("touch at the mid-point", MarkerTouch(true), {Side::left, Side::right});
+  check("the same, spin held", MarkerTouch(false), {Side::left, Side::right});
   check("edge", Edge(Side::left, 1.2), {Side::left, Side::right});
   check("edge of a line to the right", Edge(Side::right, 1.2), {Side::left, Side::right});
   check("mid line", MidLine(true), {Side::right});

@@ -1,0 +1,66 @@
+#include "strip.hpp"
+
+namespace windlass::equilibrium {
+
+using chain::Stretch;
+
+Strip::Strip(const chain::Topology& topology, const std::vector<double>& places)
+    : s(places),
+      half(topology.half),
+      mid_touch(topology.mid_touch),
+      marker(static_cast<int>(topology.left.size())) {
+  for (const Stretch kind : chain::stretches(topology))
+    parts.push_back({kind, static_cast<int>(parts.size())});
+}
+
+Successor Strip::successor() const {
+  Successor out;
+  out.s = s;
+  std::vector<Stretch> kinds;
+  for (const Part& part : parts) {
+    if (part.fresh) out.opened.push_back(static_cast<int>(kinds.size()));
+    kinds.push_back(part.kind);
+    out.source.push_back(part.source);
+  }
+  out.topology.half = half;
+  out.topology.mid_touch = mid_touch;
+  out.topology.right.assign(kinds.begin() + marker, kinds.end());
+  out.topology.left.assign(kinds.rend() - marker, kinds.rend());
+  out.nothing_left = !out.topology.contact();
+  return out;
+}
+
+bool Strip::astride(Stretch kind) const {
+  return !mid_touch && parts[marker].kind == kind && (half || parts[marker - 1].kind == kind);
+}
+
+void Strip::erase(int i, int bound) {
+  parts.erase(parts.begin() + i);
+  s.erase(s.begin() + bound);
+  if (!half && bound < marker) --marker;
+}
+
+void Strip::merge(int first, int last, Stretch kind) {
+  for (int i = last; i > first; --i) erase(i, i);
+  parts[first].kind = kind;
+}
+
+void Strip::split(int i, double at, Stretch left, Stretch right) {
+  const Part old = parts[i];
+  parts[i].kind = left;
+  parts.insert(parts.begin() + i + 1, {right, old.source});
+  s.insert(s.begin() + i + 1, at);
+  if (!half && marker > i) ++marker;
+}
+
+bool Strip::close_about_mid() {
+  erase(marker, marker + 1);
+  if (!half) erase(marker - 1, marker - 1);
+  const bool line_after = parts[marker].kind == Stretch::line;
+  if (!half && line_after != (parts[marker - 1].kind == Stretch::line)) return false;
+  mid_touch =
+      !line_after;  // between lines a gap has closed; else a line, or a gap between touches, leaves one
+  return true;
+}
+
+}  // namespace windlass::equilibrium

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "windlass/equilibrium/contact_events.hpp"
+
+/// Cutting and joining the arcs of a chain.
+namespace windlass::equilibrium {
+
+/// The chain's arcs with their bounds: easier to cut and join than topologies.
+struct Strip {
+  struct Part {
+    chain::Stretch kind;
+    int source;          ///< link of the old chain
+    bool fresh = false;  ///< has no length at the event itself
+  };
+  std::vector<Part> parts;
+  std::vector<double> s;  ///< bounds of the parts
+  bool half = true, mid_touch = false;
+  int marker = 0;  ///< bound at the mid-point
+
+  Strip(const chain::Topology& topology, const std::vector<double>& places);
+  Successor successor() const;
+
+  bool starts_at_mid(int part) const { return part == marker; }
+  bool ends_at_mid(int part) const { return !half && part + 1 == marker; }
+  /// Is there a part of this kind on both sides of the mid-point (in a half chain: beside it)?
+  bool astride(chain::Stretch kind) const;
+
+  /// Takes out part i and one of its bounds.
+  void erase(int i, int bound);
+  /// Replaces parts [first, last] by one.
+  void merge(int first, int last, chain::Stretch kind);
+  /// Splits part i at s into (i, left) and (i + 1, right).
+  void split(int i, double at, chain::Stretch left, chain::Stretch right);
+  /// Takes out the part about the mid-point, both halves of it. @returns false where something else meets there
+  bool close_about_mid();
+};
+
+}  // namespace windlass::equilibrium

@@ -1,0 +1,210 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "strip.hpp"
+#include "windlass/equilibrium/contact_events.hpp"
+
+namespace windlass::equilibrium {
+
+using chain::Piece;
+using chain::Profile;
+using chain::Stretch;
+using chain::Topology;
+using Kind = ContactEvent::Kind;
+
+namespace {
+
+/// Free arcs left and right of what was lost become one: a tail if either is.
+Stretch joined(Stretch a, Stretch b) {
+  return a == Stretch::tail || b == Stretch::tail ? Stretch::tail : Stretch::gap;
+}
+
+/// Stretch of negative pressure round s; no length at the event itself.
+std::pair<double, double> suction(const Piece& line, double s) {
+  const auto edge = [&](Eigen::Index k, Eigen::Index next) {
+    return line.s(k) + (line.s(next) - line.s(k)) * line.p(k) / (line.p(k) - line.p(next));
+  };
+  Eigen::Index k = 0;
+  (line.s.array() - s).abs().minCoeff(&k);
+  if (line.p(k) >= -1e-9) return {s, s};
+  Eigen::Index first = k, last = k;
+  const Eigen::Index end = line.s.size() - 1;
+  while (first > 0 && line.p(first - 1) < 0.0) --first;
+  while (last < end && line.p(last + 1) < 0.0) ++last;
+  return {first > 0 ? edge(first, first - 1) : line.s(0), last < end ? edge(last, last + 1) : line.s(end)};
+}
+
+/// Lengths to try for a gap that opens where the pressure is negative over `width`. A beam held off by the pressure
+/// p₀ + a x² needs √5 times that width for g = g' = g'' = 0 at its ends, one held at a touch 5/3 of it; at the event
+/// itself the width is nothing, and the load gives way to any length: by its square inside, in proportion at an edge.
+std::vector<double> gap_lengths(double width, double factor, double usual, double most) {
+  std::vector<double> out;
+  for (const double part : {1.0, 0.5, 2.0, 3.0})
+    out.push_back(std::min(most, part * (width > 1e-6 ? factor * width : usual)));
+  return out;
+}
+
+std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& strip, const Piece& line) {
+  std::vector<Successor> out;
+  const int i = event.place;
+  const double begin = strip.s[i], end = strip.s[i + 1], length = end - begin;
+  const bool starts_at_mid = strip.starts_at_mid(i), ends_at_mid = strip.ends_at_mid(i);
+  const int twin = strip.half ? i : starts_at_mid ? i - 1 : ends_at_mid ? i + 1 : i;
+  Strip open = strip;  // the whole line lifts at once, on both sides of a full chain's mid-point
+  open.parts[i].kind = open.parts[twin].kind = Stretch::gap;
+  if (line.p.maxCoeff() - line.p.minCoeff() < 1e-6) return {open.successor()};
+  const auto [low, high] = suction(line, event.s);
+  const double width = high - low, near = 0.02 * length;
+  const bool at_start = low<begin + near, at_end = high> end - near;
+  const bool at_mid = (at_start && starts_at_mid) || (at_end && ends_at_mid);
+  const auto cut = [&](Strip part, int link, double from, double to) {  // a gap [from, to] inside a link
+    const bool before = from > part.s[link], after = to < part.s[link + 1];
+    if (after) part.split(link, to, Stretch::gap, Stretch::line);
+    if (before) part.split(link, from, Stretch::line, Stretch::gap);
+    part.parts[link + before].fresh = true;
+    return part;
+  };
+  if (at_mid) {
+    for (const double size : gap_lengths(2.0 * width, std::sqrt(5.0), 0.3, 1.8 * length)) {
+      const int right = ends_at_mid ? i + 1 : i;
+      Strip inner = cut(strip, right, strip.s[right], strip.s[right] + 0.5 * size);
+      if (twin != i) inner = cut(inner, right - 1, strip.s[right] - 0.5 * size, strip.s[right]);
+      out.push_back(inner.successor());
+    }
+  } else if (at_start ||
+             at_end) {  // the edge's point force stays: a touch, with a gap between it and the line
+    for (const double size : gap_lengths(width, 5.0 / 3.0, 0.05, 0.9 * length))
+      out.push_back(
+          (at_end ? cut(strip, i, end - size, end) : cut(strip, i, begin, begin + size)).successor());
+  } else {
+    const double middle = 0.5 * (low + high), room = 1.8 * std::min(middle - begin, end - middle);
+    for (const double size : gap_lengths(width, std::sqrt(5.0), 0.3, room))
+      out.push_back(cut(strip, i, middle - 0.5 * size, middle + 0.5 * size).successor());
+  }
+  out.push_back(open.successor());
+  return out;
+}
+
+std::vector<Successor> after_length(const ContactEvent& event, Strip strip) {
+  const int i = event.place;
+  const Stretch kind = strip.parts[i].kind;
+  const bool starts_at_mid = strip.starts_at_mid(i), ends_at_mid = strip.ends_at_mid(i);
+  if (strip.astride(kind) && (starts_at_mid || ends_at_mid)) {
+    if (strip.close_about_mid()) return {strip.successor()};
+    return {};
+  }
+  if (strip.mid_touch && (starts_at_mid || ends_at_mid)) {  // a touch meets the one at the mid-point
+    strip.erase(i, starts_at_mid ? i + 1 : i);
+    return {strip.successor()};
+  }
+  if (i == 0 || i + 1 == static_cast<int>(strip.parts.size())) return {};
+  const bool line = kind == Stretch::line, line_before = strip.parts[i - 1].kind == Stretch::line,
+             line_after = strip.parts[i + 1].kind == Stretch::line;
+  if (line_before && line_after) {
+    strip.merge(i - 1, i + 1, Stretch::line);
+    return {strip.successor()};
+  }
+  if (line || (!line_before && !line_after))  // two edges or two touches meet: one touch
+    strip.s[i] = 0.5 * (strip.s[i] + strip.s[i + 1]);
+  else if (line_before)  // line – gap – touch: the touch joins the line
+    strip.s[i] = strip.s[i + 1];
+  strip.erase(i, i + 1);
+  return {strip.successor()};
+}
+
+std::vector<Successor> after_force(const ContactEvent& event, Strip strip, const Profile& profile,
+                                   const Topology& topology) {
+  const int j = event.place;
+  if (strip.mid_touch && j == strip.marker) {
+    strip.mid_touch = false;
+    return {strip.successor()};
+  }
+  const Stretch before = strip.parts[j - 1].kind, after = strip.parts[j].kind;
+  if (before == Stretch::line || after == Stretch::line) return {};
+  constexpr double lifted =
+      1e-6;  // with the last force the rod leaves the cylinder, from mirror images at once
+  strip.merge(j - 1, j, joined(before, after));
+  Successor next = strip.successor();
+  next.nothing_left |= chain::total_contact_force(profile, topology) < lifted;
+  return {next};
+}
+
+std::vector<Successor> after_curvature(const ContactEvent& event, const Strip& strip,
+                                       const Profile& profile) {
+  std::vector<Successor> out;
+  const int j = event.place;
+  // A neighbouring gap that lies on the cylinder all along closes as a whole.
+  for (const int i : {j - 1, j}) {
+    if (i < 0 || strip.parts[i].kind != Stretch::gap) continue;
+    double widest = 0.0;
+    for (Eigen::Index k = 0; k < profile.pieces[i].s.size(); ++k)
+      widest = std::max(widest, std::abs(chain::gap(profile.pieces[i].r.col(k))));
+    if (widest > 1e-5) continue;
+    Strip closed = strip;
+    closed.parts[i].kind = Stretch::line;
+    out.push_back(closed.successor());
+  }
+  for (const double length : {0.05, 0.02, 0.1}) {  // of the new line
+    Strip flat = strip;
+    const double begin = strip.s[j] - 0.5 * length, end = strip.s[j] + 0.5 * length;
+    if (strip.mid_touch && j == strip.marker) {
+      flat.mid_touch = false;
+      if (!strip.half) flat.split(j - 1, begin, strip.parts[j - 1].kind, Stretch::line);
+      flat.split(flat.marker, end, Stretch::line, strip.parts[j].kind);
+      flat.parts[flat.marker].fresh = true;
+      if (!strip.half) flat.parts[flat.marker - 1].fresh = true;
+    } else {
+      flat.split(j, end, Stretch::line, strip.parts[j].kind);
+      flat.s[j] = begin;
+      flat.parts[j].fresh = true;
+    }
+    out.push_back(flat.successor());
+  }
+  return out;
+}
+
+std::vector<Successor> after_graze(const ContactEvent& event, Strip strip) {
+  const int i = event.place;
+  if (!strip.mid_touch && strip.starts_at_mid(i) && std::abs(event.s) < 1e-9) {
+    strip.mid_touch = true;
+    return {strip.successor()};
+  }
+  const Stretch kind = strip.parts[i].kind;
+  const bool left_tail = !strip.half && i == 0, right_tail = kind == Stretch::tail && !left_tail;
+  strip.split(i, event.s, left_tail ? Stretch::tail : Stretch::gap,
+              right_tail ? Stretch::tail : Stretch::gap);
+  return {strip.successor()};
+}
+
+}  // namespace
+
+std::vector<Successor> successors(const ContactEvent& event, const Profile& profile, const Topology& topology,
+                                  const std::vector<double>& s) {
+  constexpr double vanished = 2.0 * least_length;
+  const Strip strip(topology, s);
+  const auto vanishing_line = [&](int link) {
+    return link >= 0 && link < static_cast<int>(strip.parts.size()) &&
+           strip.parts[link].kind == Stretch::line && std::abs(s[link + 1] - s[link]) < vanished;
+  };
+  // With a line that shrinks to nothing its pressure (phi = pi) or its edges' forces may change sign: it leaves a touch.
+  const auto gone = [](int link) { return ContactEvent{Kind::length, link, 0.0, 0.0}; };
+  switch (event.kind) {
+    case Kind::pressure:
+      if (vanishing_line(event.place)) return after_length(gone(event.place), strip);
+      return after_pressure(event, strip, profile.pieces[event.place]);
+    case Kind::length:
+      return after_length(event, strip);
+    case Kind::force:
+      for (const int link : {event.place - 1, event.place})
+        if (vanishing_line(link)) return after_length(gone(link), strip);
+      return after_force(event, strip, profile, topology);
+    case Kind::curvature:
+      return after_curvature(event, strip, profile);
+    case Kind::graze:
+      return after_graze(event, strip);
+  }
+  return {};
+}
+
+}  // namespace windlass::equilibrium
