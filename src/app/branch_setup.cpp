@@ -50,6 +50,21 @@ continuation::Options options_of(const scene::Scene& scene, double from) {
   return options;
 }
 
+/// At a fold or branch point no state is alone at its parameter: the branch that was walked there is taken up a little
+/// further on, or, where it turns back, a little before.
+equilibrium::Started beside(equilibrium::Started at, int direction) {
+  const double here = at.p(0);
+  for (const double offset : {1e-4, -1e-4, 1e-3, -1e-3, 1e-2, -1e-2}) {
+    equilibrium::Started next = at;
+    next.p(0) = here + direction * offset * std::max(1.0, std::abs(here));
+    try {
+      if (at.problem->polish(next.x, next.p) >= 0) return next;
+    } catch (const std::exception&) {  // a length or tension left its domain
+    }
+  }
+  throw equilibrium::NoEquilibrium("no state was found beside the singular point");
+}
+
 }  // namespace
 
 BranchSetup set_up_branch(const BranchRequest& request) {
@@ -61,7 +76,11 @@ BranchSetup set_up_branch(const BranchRequest& request) {
   if (request.run) {
     const output::Run run = output::read_run(*request.run);
     setup.stored = run.points.get(request.label).restart;
-    scene = scene_of_point(scene, run, *run.points.find(request.label));
+    const std::size_t position = *run.points.find(request.label);
+    const output::PointStore::Key& key = run.points.keys().at(position);
+    const std::string type = run.row(output::point_name(key.branch, key.point, "")).type;
+    setup.singular = type == "fold" || type == "branch_point";
+    scene = scene_of_point(scene, run, position);
   } else {
     if (scene.continuation->from != 0.0 || setup.key == "load.angle")
       scene::set_parameter(scene, setup.key, scene.continuation->from);
@@ -80,7 +99,8 @@ equilibrium::Started first_state(const BranchSetup& setup) {
     return equilibrium::cold_start(setup.scene, needs_space(setup.scene),
                                    setup.scene.model.symmetry != scene::Symmetry::none, keys);
   const auto problem = equilibrium::reopen(setup.scene, *setup.stored, keys);
-  return {problem, setup.stored->state, problem->parameters(), 0};
+  const equilibrium::Started start{problem, setup.stored->state, problem->parameters(), 0};
+  return setup.singular ? beside(start, setup.options.direction) : start;
 }
 
 }  // namespace windlass::app

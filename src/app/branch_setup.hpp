@@ -13,6 +13,7 @@ struct BranchSetup {
   std::string key;     ///< of the parameter that varies
   continuation::Options options;
   std::optional<equilibrium::Restart> stored;  ///< the stored point to start from
+  bool singular = false;                       ///< it is a fold or a branch point
 };
 
 /// @throws InputError when the scene has no [continuation], or the stored point does not exist

@@ -18,12 +18,12 @@ using contact::SmallVector;
 
 namespace {
 
-/// Number of negative eigenvalues of a symmetric matrix, by Bunch-Kaufman factorisation (LAPACK dsytrf). A neutral
-/// motion's is zero, whatever the sign of its rounding.
-int negative_eigenvalues(MatrixXd a) {
+/// Number of eigenvalues of a symmetric matrix below zero, by Bunch-Kaufman factorisation (LAPACK dsytrf).
+/// @param rounding  a pivot less than this below zero, as a part of the largest entry, counts as zero
+int negative_eigenvalues(MatrixXd a, double rounding) {
   int n = static_cast<int>(a.rows()), info = 0, work_size = 64 * std::max(n, 1);
   if (n == 0) return 0;
-  const double zero = 1e-10 * a.cwiseAbs().maxCoeff();
+  const double zero = rounding * a.cwiseAbs().maxCoeff();
   std::vector<int> pivot(n);
   VectorXd work(work_size);
   dsytrf_("L", &n, a.data(), &n, pivot.data(), work.data(), &work_size, &info);
@@ -296,7 +296,8 @@ int Chain::index(const VectorXd& x, const Loads& loads, Parity parity) const {
       for (std::size_t s = 0; s < l.dofs.size(); ++s) dense(l.dofs[r], l.dofs[s]) += share(r, s);
   }
   dense = (0.5 * (dense + dense.transpose())).eval();
-  return negative + negative_eigenvalues(dense) - numbering.constraints;
+  const double neutral = neutral_turn_ ? 1e-10 : 0.0;
+  return negative + negative_eigenvalues(dense, neutral) - numbering.constraints;
 }
 
 }  // namespace windlass::chain

@@ -90,15 +90,15 @@ std::unique_ptr<Arc> make_arc(const RodKind& rod, Stretch stretch, const ArcMesh
                                    mesh.stages);
 }
 
-/// May the whole rod turn at no cost? A flat loop between two touches turns about the pulls that lie along one line
-/// (odd under the half-turn), a bight hung over one touch about the normal there if the pulls are parallel. A line contact
+/// May the whole rod turn at no cost? A flat loop between two touches turns about the pulls that lie along one line,
+/// a bight hung over one touch about the normal there if the pulls are parallel. A line contact
 /// alone is about to become one of the two.
 bool turns_freely(const RodKind& rod, const Topology& t) {
   const double half_turns = rod.pull_angle / M_PI, whole = std::round(half_turns);
   if (!(std::abs(half_turns - whole) < 1e-9)) return false;
   const std::vector<Stretch> all = stretches(t);
   const auto has = [&](Stretch kind) { return std::find(all.begin(), all.end(), kind) != all.end(); };
-  if (std::remainder(whole, 2.0) == 0.0) return !t.half && !(has(Stretch::line) && has(Stretch::gap));
+  if (std::remainder(whole, 2.0) == 0.0) return !(has(Stretch::line) && has(Stretch::gap));
   return !has(Stretch::gap) && (t.mid_touch || has(Stretch::line));
 }
 
