@@ -210,8 +210,7 @@ int BranchRecorder::finish(const continuation::Diagram& diagram, bool quiet, boo
     std::printf("%d points, %zu special points, %.3f ms a point (spectra %.3f ms a point more) -> %s\n",
                 points_, writer_.special_points().size(), 1e3 * continuation_ / std::max(1, points_),
                 1e3 * stability_ / std::max(1, points_), writer_.folder().string().c_str());
-    for (const std::string& arm : diagram.inadmissible)
-      std::printf("no arm: %s\n", arm.c_str());
+    for (const std::string& arm : diagram.inadmissible) std::printf("no arm: %s\n", arm.c_str());
     for (const std::string& reason : diagram.lost) std::printf("lost: %s\n", reason.c_str());
   }
   return stopped_ ? interrupted : incomplete ? not_finished : done;

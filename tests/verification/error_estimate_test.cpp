@@ -2,6 +2,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "support/coil_scene.hpp"
 #include "windlass/equilibrium/start.hpp"
 
 namespace {
@@ -9,17 +10,6 @@ namespace {
 using namespace windlass;
 using equilibrium::RodProblem;
 using equilibrium::Started;
-
-scene::Scene coil(double tension, scene::EndKind ends = scene::EndKind::moment_free) {
-  scene::Scene scene;
-  scene.name = "coil";
-  scene.has_cylinder = true;
-  scene.load.tension = tension;
-  scene.load.angle = 2.0 * M_PI;
-  scene.rod.length = 20.0;
-  scene.ends.kind = ends;
-  return scene;
-}
 
 scene::Scene strut(double shortening, double twist) {
   scene::Scene scene;
@@ -75,13 +65,14 @@ BOOST_AUTO_TEST_SUITE(error_estimate)
 BOOST_AUTO_TEST_CASE(it_bounds_the_change_under_refinement_within_a_factor_of_ten) {
   const std::vector<std::string> tension{"load.tension"}, shortening{"ends.shortening"};
   for (const int stages : {3, 4}) {
-    check(equilibrium::cold_start(coil(1.5), false, true, tension), stages, "planar");
-    check(equilibrium::cold_start(coil(0.4), false, true, tension), stages, "planar, two touches");
-    check(equilibrium::cold_start(coil(1.5, scene::EndKind::clamped), true, true, tension), stages,
-          "flat, clamped");
+    check(equilibrium::cold_start(test::coil_scene(1.5), false, true, tension), stages, "planar");
+    check(equilibrium::cold_start(test::coil_scene(0.4), false, true, tension), stages,
+          "planar, two touches");
+    check(equilibrium::cold_start(test::coil_scene(1.5, scene::EndKind::clamped), true, true, tension),
+          stages, "flat, clamped");
     check(equilibrium::cold_start(strut(0.3, 0.0), true, true, shortening), stages, "strut");
     check(equilibrium::cold_start(strut(0.3, M_PI), true, true, shortening), stages, "twisted strut");
-    Started flat = equilibrium::cold_start(coil(0.9), true, true, tension);
+    Started flat = equilibrium::cold_start(test::coil_scene(0.9), true, true, tension);
     const auto helix = equilibrium::stable_neighbour(flat);
     BOOST_TEST_REQUIRE(helix.has_value());
     check(*helix, stages, "helix");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <continuation/walker.hpp>
 
+#include "support/coil_scene.hpp"
 #include "windlass/equilibrium/start.hpp"
 #include "windlass/stability/spectrum.hpp"
 
@@ -15,13 +16,7 @@ using continuation::PointType;
 using equilibrium::Started;
 
 scene::Scene coil(double tension, scene::EndKind ends) {
-  scene::Scene scene;
-  scene.name = "coil";
-  scene.has_cylinder = true;
-  scene.load.tension = tension;
-  scene.load.angle = 2.0 * M_PI;
-  scene.rod.length = 20.0;
-  scene.ends.kind = ends;
+  scene::Scene scene = test::coil_scene(tension, ends);
   scene.model.tolerance = 1e-9;
   return scene;
 }
