@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "windlass/robustness/cold_start.hpp"
 #include "windlass/scene/scene.hpp"
 #include "windlass/verify/certificate.hpp"
 
@@ -89,10 +90,25 @@ struct RunRequest {
 struct RobustnessRequest {
   CommonOptions common;
   scene::Scene scene;
-  int tensions = 40, angles = 40;
-  std::vector<double> tension_range{0.05, 1e4};                                      ///< [EI/ρ²]
-  std::vector<double> angle_range{0.25 * 3.14159265358979, 8.0 * 3.14159265358979};  ///< [rad]
+  robustness::Grid grid;
   bool grid_only = false;
+};
+
+/// `sweep`: the same for every combination of values of some scene keys.
+struct SweepRequest {
+  CommonOptions common;
+  std::filesystem::path scene;
+  std::vector<std::string> over;  ///< see parse_axis
+  std::string each = "solve";     ///< what is done with a case: solve, continue, diagram
+  bool resume = false;            ///< keep the cases finished already
+};
+
+/// `precision`: which methods reach which error at what cost.
+struct PrecisionRequest {
+  CommonOptions common;
+  scene::Scene scene;
+  int repeats = 5;     ///< solutions a measurement; the median counts
+  bool quick = false;  ///< short ladders
 };
 
 // Bodies: one function a command, in run_NAME.cpp. They return an exit status; bad input is thrown.
@@ -108,11 +124,14 @@ int run_robustness(const RobustnessRequest& request);
 int run_fit(const FitRequest& request);
 int run_export(const RunRequest& request);
 int run_figures(const FiguresRequest& request);
+int run_sweep(const SweepRequest& request);
+int run_precision(const PrecisionRequest& request);
 
 /// Declares a subcommand; its callback stores the exit status in `status`.
 using AddCommand = void(CLI::App& app, CommonOptions& common, int& status);
 AddCommand add_solve, add_continue, add_diagram, add_locus, add_stability, add_verify, add_plot, add_report,
-    add_fit, add_figures, add_export, add_robustness, add_scenes, add_manual, add_completion;
+    add_fit, add_figures, add_export, add_sweep, add_robustness, add_precision, add_scenes, add_manual,
+    add_completion;
 
 // ---- shared by the command files -------------------------------------------------------------------------------
 

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <string>
@@ -54,6 +55,13 @@ void check_command(const CLI::App& app, const std::string& word) {
   throw InputError(word + ": no such command; must be one of " + known);
 }
 
+/// Under mpirun every process would do the same and write to the same folder; only a sweep shares its work out.
+void check_ranks(const std::string& word) {
+  const char* ranks = std::getenv("OMPI_COMM_WORLD_SIZE");
+  if (ranks && std::atoi(ranks) > 1 && word != "sweep" && !word.starts_with('-'))
+    throw InputError(word + ": runs on one process; only `sweep` spreads its work over several");
+}
+
 int run(std::vector<std::string> arguments) {
   CLI::App app{"windlass: equilibria, bifurcations and stability of elastic rods in contact", "windlass"};
   app.set_version_flag("--version", "windlass " WINDLASS_VERSION);
@@ -63,9 +71,9 @@ int run(std::vector<std::string> arguments) {
 
   CommonOptions common;
   int status = done;
-  for (AddCommand* add :
-       {add_solve, add_continue, add_diagram, add_locus, add_stability, add_verify, add_plot, add_report,
-        add_fit, add_figures, add_export, add_robustness, add_scenes, add_manual, add_completion})
+  for (AddCommand* add : {add_solve, add_continue, add_diagram, add_locus, add_stability, add_verify,
+                          add_plot, add_report, add_fit, add_figures, add_export, add_sweep, add_robustness,
+                          add_precision, add_scenes, add_manual, add_completion})
     add(app, common, status);
 
   if (arguments.empty()) {
@@ -73,6 +81,7 @@ int run(std::vector<std::string> arguments) {
     return bad_input;
   }
   check_command(app, arguments.front());
+  check_ranks(arguments.front());
   common.petsc = take_petsc_options(arguments);
   petsc::set_options(common.petsc);
   std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back

@@ -22,26 +22,33 @@ void add_robustness(CLI::App& app, CommonOptions& common, int& status) {
   const auto request = std::make_shared<RobustnessRequest>();
   const auto scene = std::make_shared<std::string>();
   command->add_option("SCENE", *scene, "scene file (TOML)")->required()->type_name("");
-  command->add_option("--tensions", request->tensions, "number of tensions")
+  command->add_option("--tensions", request->grid.tensions, "number of tensions")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->add_option("--angles", request->angles, "number of angles")
+  command->add_option("--angles", request->grid.angles, "number of angles")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->add_option("--tension-range", request->tension_range, "[EI/rho^2]")
+  const robustness::Grid whole;
+  const auto tensions =
+      std::make_shared<std::vector<double>>(std::vector{whole.tension_low, whole.tension_high});
+  const auto angles = std::make_shared<std::vector<double>>(std::vector{whole.angle_low, whole.angle_high});
+  command->add_option("--tension-range", *tensions, "[EI/rho^2]")
       ->expected(2)
       ->check(CLI::PositiveNumber)
       ->type_name("LOW HIGH")
       ->capture_default_str();
-  command->add_option("--angle-range", request->angle_range, "[rad]")
+  command->add_option("--angle-range", *angles, "[rad]")
       ->expected(2)
       ->check(CLI::PositiveNumber)
       ->type_name("LOW HIGH")
       ->capture_default_str();
   command->add_flag("--grid-only", request->grid_only, "leave the hard places out");
   add_common_options(*command, common);
-  command->callback([request, scene, &common, &status] {
+  command->callback([request, scene, tensions, angles, &common, &status] {
     request->common = common;
+    robustness::Grid& grid = request->grid;
+    grid.tension_low = tensions->front(), grid.tension_high = tensions->back();
+    grid.angle_low = angles->front(), grid.angle_high = angles->back();
     request->scene = scene::read_scene(*scene, common.set);
     status = run_robustness(*request);
   });

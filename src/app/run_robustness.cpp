@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -9,7 +9,7 @@
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "windlass/output/atomic_file.hpp"
-#include "windlass/output/error.hpp"
+#include "windlass/output/branches_csv.hpp"
 #include "windlass/output/gnuplot.hpp"
 #include "windlass/petsc/session.hpp"
 #include "windlass/robustness/cold_start.hpp"
@@ -23,18 +23,14 @@ using robustness::Answer;
 using robustness::Case;
 using robustness::Outcome;
 
-std::string quoted(std::string text) {
-  std::replace(text.begin(), text.end(), '"', '\'');
-  return '"' + text + '"';
-}
-
 std::string row(const Case& one, const Answer& answer) {
-  return fmt::format("{},{:.17g},{:.17g},{:.17g},{},{},{},{},{:.17g},{},{:.3g},{}\n", quoted(one.place),
-                     one.scene.load.tension, one.scene.load.angle, one.scene.rod.length,
+  return fmt::format("{},{:.17g},{:.17g},{:.17g},{},{},{},{},{:.17g},{},{:.3g},{}\n",
+                     output::csv_cell(one.place), one.scene.load.tension, one.scene.load.angle,
+                     one.scene.rod.length,
                      one.scene.ends.kind == scene::EndKind::clamped ? "clamped" : "moment_free",
                      one.scene.model.symmetry == scene::Symmetry::none ? "none" : "half_turn",
                      robustness::name(answer.outcome), answer.topology, answer.R_tot,
-                     answer.newton_iterations, answer.seconds, quoted(answer.cause));
+                     answer.newton_iterations, answer.seconds, output::csv_cell(answer.cause));
 }
 
 /// The grid as squares: grey where no equilibrium exists, the number of Newton steps in colour where one was found,
@@ -45,8 +41,8 @@ void draw(const std::vector<std::pair<Case, Answer>>& grid, const std::filesyste
     std::string& data = answer.outcome == Outcome::solved       ? solved
                         : answer.outcome == Outcome::impossible ? impossible
                                                                 : failed;
-    data += fmt::format("{:.9g} {:.9g} {}\n", one.scene.load.angle / 3.14159265358979323846,
-                        one.scene.load.tension, answer.newton_iterations);
+    data += fmt::format("{:.9g} {:.9g} {}\n", one.scene.load.angle / M_PI, one.scene.load.tension,
+                        answer.newton_iterations);
   }
   const auto written = [&](const std::string& name, const std::string& data) {
     output::replace_file(folder / name, std::string_view(data.empty() ? "NaN NaN NaN\n" : data));
@@ -73,15 +69,10 @@ int run_robustness(const RobustnessRequest& request) {
   if (!request.scene.has_cylinder)
     throw InputError(request.scene.name + ": robustness needs a scene with a [cylinder]");
   petsc::ensure_session();
-  robustness::Grid grid;
-  grid.tensions = request.tensions;
-  grid.angles = request.angles;
-  grid.tension_low = request.tension_range[0], grid.tension_high = request.tension_range[1];
-  grid.angle_low = request.angle_range[0], grid.angle_high = request.angle_range[1];
   std::vector<Case> cases;
   if (!request.grid_only) cases = robustness::hard_cases(request.scene);
   const std::size_t hard = cases.size();
-  const std::vector<Case> squares = robustness::grid_cases(request.scene, grid);
+  const std::vector<Case> squares = robustness::grid_cases(request.scene, request.grid);
   cases.insert(cases.end(), squares.begin(), squares.end());
 
   const std::filesystem::path folder = output_folder(request.common, request.scene);

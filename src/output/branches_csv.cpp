@@ -10,17 +10,6 @@ namespace windlass::output {
 
 namespace {
 
-/// RFC 4180: quoted only where the text needs it.
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"') result += '"';
-    result += c;
-  }
-  return result + '"';
-}
-
 /// Reads the cells of one line in order; errors name the file, the line and the cell.
 class CellReader {
  public:
@@ -118,6 +107,16 @@ std::vector<std::string> split_csv(std::string_view line) {
   return cells;
 }
 
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"') result += '"';
+    result += c;
+  }
+  return result + '"';
+}
+
 std::string format_number(double value) {
   if (!std::isfinite(value)) return {};
   char buffer[32];
@@ -129,13 +128,13 @@ std::string csv_header(bool has_cylinder, const std::string& extra_parameter) {
   std::string header = "branch,point,label,type,T,phi,";
   header += has_cylinder ? "R_tot,phi_star," : "end_force,end_moment,shortening,";
   header += "tilt,z_span,energy,index,eigenvalue_1,ds,newton_iterations,error_estimate,topology";
-  if (!extra_parameter.empty()) header += "," + quoted(extra_parameter);
+  if (!extra_parameter.empty()) header += "," + csv_cell(extra_parameter);
   return header + "\n";
 }
 
 std::string csv_line(const BranchRow& row, bool has_cylinder, const std::string& extra_parameter) {
-  std::string line = std::to_string(row.branch) + "," + std::to_string(row.point) + "," + quoted(row.label) +
-                     "," + quoted(row.type);
+  std::string line = std::to_string(row.branch) + "," + std::to_string(row.point) + "," +
+                     csv_cell(row.label) + "," + csv_cell(row.type);
   const auto add = [&line](double value) { line += "," + format_number(value); };
   add(row.T);
   add(row.phi);
@@ -155,7 +154,7 @@ std::string csv_line(const BranchRow& row, bool has_cylinder, const std::string&
   add(row.ds);
   line += "," + std::to_string(row.newton_iterations);
   add(row.error_estimate);
-  line += "," + quoted(row.topology);
+  line += "," + csv_cell(row.topology);
   if (!extra_parameter.empty()) add(row.parameter.value_or(std::nan("")));
   return line + "\n";
 }

@@ -24,6 +24,9 @@ std::vector<BranchRow> read_branches(const std::filesystem::path& path, bool has
 /// Cells of one line, without their quotes (RFC 4180).
 std::vector<std::string> split_csv(std::string_view line);
 
+/// Text as a cell: quoted only where it must be (RFC 4180).
+std::string csv_cell(const std::string& text);
+
 /// Shortest decimal form that reads back exactly; empty when the value is not finite.
 std::string format_number(double value);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -39,7 +40,7 @@ struct Answer {
 /// Tensions spaced evenly in their logarithm, angles evenly; both ends of the ranges included.
 struct Grid {
   double tension_low = 0.05, tension_high = 1e4;
-  double angle_low = 0.25 * 3.14159265358979323846, angle_high = 8.0 * 3.14159265358979323846;
+  double angle_low = 0.25 * M_PI, angle_high = 8.0 * M_PI;
   int tensions = 40, angles = 40;
 };
 std::vector<Case> grid_cases(const scene::Scene& scene, const Grid& grid);

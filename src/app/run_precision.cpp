@@ -1,0 +1,63 @@
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.hpp"
+#include "app/interrupt.hpp"
+#include "app/progress.hpp"
+#include "windlass/output/atomic_file.hpp"
+#include "windlass/petsc/session.hpp"
+#include "windlass/precision/study.hpp"
+#include "windlass/scene/error.hpp"
+
+namespace windlass::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+nlohmann::ordered_json summary(const precision::Study& study) {
+  nlohmann::ordered_json out;
+  out["state"] = study.state;
+  out["reference"] = {{"R_tot", study.reference.R_tot},
+                      {"phi_star", study.reference.phi_star},
+                      {"energy", study.reference.energy},
+                      {"unknowns", study.reference_unknowns}};
+  if (study.reference.transition) out["reference"]["transition"] = *study.reference.transition;
+  out["measurements"] = study.measurements.size();
+  out["failures"] = study.failures;
+  out["conclusions"] = precision::conclusions(study);
+  return out;
+}
+
+}  // namespace
+
+int run_precision(const PrecisionRequest& request) {
+  const fs::path folder = request.common.out.empty() ? fs::path("runs") / (request.scene.name + "-precision")
+                                                     : request.common.out;
+  if (fs::exists(folder) && !fs::is_empty(folder) && !request.common.force)
+    throw InputError(folder.string() + ": is not empty; --force replaces what is there");
+  petsc::ensure_session();
+  fs::create_directories(folder);
+  Progress progress(request.common.quiet);
+  precision::StudyOptions options;
+  options.repeats = request.repeats;
+  options.quick = request.quick;
+  options.progress = [&](const std::string& text) { progress.update(text); };
+  options.stop = interrupted_by_user;
+  const precision::Study study = precision::study(request.scene, options);
+  progress.finish();
+  output::replace_file(folder / "precision.csv", std::string_view(precision::to_csv(study)));
+  output::replace_file(folder / "precision.json", std::string_view(summary(study).dump(2) + "\n"));
+  precision::draw(study, folder, {"png", "svg", "pdf"});
+  if (request.common.json) {
+    std::printf("%s\n", summary(study).dump(2).c_str());
+  } else if (!request.common.quiet) {
+    std::printf("%s\n", study.state.c_str());
+    for (const std::string& sentence : precision::conclusions(study)) std::printf("%s\n", sentence.c_str());
+    for (const std::string& failure : study.failures) std::printf("failed: %s\n", failure.c_str());
+    std::printf("%zu measurements -> %s\n", study.measurements.size(), folder.string().c_str());
+  }
+  return interrupted_by_user() ? interrupted : done;
+}
+
+}  // namespace windlass::app
