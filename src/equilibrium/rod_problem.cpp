@@ -24,13 +24,6 @@ double Loads::*field_of(const std::string& key) {
   return nullptr;
 }
 
-/// Error levels: the estimate is doubled, so that it bounds the change under refinement where orders compete, and
-/// never claims less than rounding leaves.
-constexpr double safety = 2.0, rounding = 2e-14;
-
-/// Every stored point must pass `verify`, whose bounds on frames, moments and positions are 1e-9.
-constexpr double certificate_level = 1e-9;
-
 }  // namespace
 
 Loads loads_of(const scene::Scene& scene) {
@@ -177,6 +170,16 @@ chain::Profile RodProblem::profile(const Vector& x, const Vector& p) {
   return chain::profile(*chain_, topology_, rod_, x, loads(p));
 }
 
+std::vector<double> RodProblem::joint_places(const Vector& x, const Vector& p, const chain::Profile& shape) {
+  std::vector<double> s;
+  const Loads at = loads(p);
+  for (int j = 0; j < chain_->joint_count(); ++j) {
+    const double here = chain_->arclength(x, at, j);
+    s.push_back(std::isinf(here) ? (here > 0.0 ? shape.end() : shape.begin()) : here);
+  }
+  return s;
+}
+
 int RodProblem::polish(Vector& x, const Vector& p, int most) {
   factored_x_.resize(0);
   if (size() == 0) return 0;  // one touch between infinite tails: nothing is unknown
@@ -202,156 +205,6 @@ int RodProblem::polish(Vector& x, const Vector& p, int most) {
 double RodProblem::target(const chain::Chain& chain, const Vector& x, const Loads& at) const {
   if (!rod_.strut) return chain::total_contact_force(chain, topology_, rod_, x, at);
   return -chain.force(x, at, chain.link_count() - 1)(0);
-}
-
-double RodProblem::error_estimate(const Vector& x, const Vector& p) {
-  const Loads at = loads(p);  // may rebuild the chain
-  if (estimated_x_.size() == x.size() && estimated_x_ == x && estimated_p_ == p) return last_error_;
-  estimated_x_ = x;
-  estimated_p_ = p;
-  bool meshed = false;
-  for (int i = 0; i < chain_->link_count(); ++i) meshed |= chain_->link(i).arc->elements() > 0;
-  nodal_error_ = 0.0;
-  if (!meshed) return last_error_ = rounding;
-  if (!finer_) {
-    std::vector<chain::ArcMesh> finer = meshes_;
-    for (auto& mesh : finer) ++mesh.stages;
-    finer_ = chain::build_chain(rod_, topology_, finer);
-  }
-  Vector fine = chain::transfer_state(*chain_, *finer_, x, at);
-  const double before = target(*chain_, x, at);
-  const Eigen::MatrixXd none(finer_->size(), 0);
-  finer_->factor(fine, at, none, none, Eigen::MatrixXd(0, 0));
-  const Vector dx = finer_->solve(-finer_->residual(fine, at), Vector(0));
-  nodal_error_ = finer_->nodal_norm(dx);
-  fine = finer_->retract(fine, dx);
-  const double after = target(*finer_, fine, at), scale = std::max(std::abs(after), 1e-3);
-  return last_error_ = safety * std::abs(after - before) / scale + rounding;
-}
-
-namespace {
-
-/// Splits elements across which a free arc amplifies errors by more than exp(3): the certificate integrates from node
-/// to node. Elements of many growth lengths (straight tails at high tension) are left whole; there it measures the
-/// distance to the nearest true trajectory instead.
-std::vector<double> bounded(const std::vector<double>& mesh, double growth) {
-  constexpr double longest = 3.0, whole = 25.0;
-  std::vector<double> out{mesh.front()};
-  for (std::size_t k = 1; k < mesh.size(); ++k) {
-    const double h = mesh[k] - mesh[k - 1];
-    const int parts =
-        h * growth > longest && h * growth < whole ? static_cast<int>(std::ceil(h * growth / longest)) : 1;
-    for (int i = 1; i <= parts; ++i) out.push_back(i == parts ? mesh[k] : mesh[k - 1] + h * i / parts);
-  }
-  return out;
-}
-
-}  // namespace
-
-std::vector<chain::ArcMesh> RodProblem::new_meshes(const Vector& x, const Loads& at, double growth) const {
-  std::vector<chain::ArcMesh> out = meshes_;
-  double total = 0.0;
-  int elements = 0;
-  std::vector<std::vector<double>> weights(meshes_.size());
-  for (int i = 0; i < chain_->link_count(); ++i) {
-    const bvp::Arc& arc = *chain_->link(i).arc;
-    if (arc.elements() == 0) continue;
-    const chain::Chain::Placed placed = chain_->place(x, at, i);
-    for (double c : arc.resolution(placed.point())) {
-      // Each element's share of the error density; the floor keeps smooth stretches meshed.
-      weights[i].push_back(std::pow(c + 1e-9, 1.0 / arc.stages()));
-      total += weights[i].back();
-    }
-    elements += arc.elements();
-  }
-  const double goal = std::clamp(growth, 0.4, 2.5) * elements;
-  for (std::size_t i = 0; i < meshes_.size(); ++i) {
-    if (weights[i].empty()) continue;
-    double sum = 0.0;
-    for (double w : weights[i]) sum += w;
-    const int count = std::clamp(static_cast<int>(std::ceil(goal * sum / total)), 2, 400);
-    const std::vector<double>& old = meshes_[i].nodes;
-    std::vector<double> mesh{0.0};
-    std::size_t e = 0;
-    double before = 0.0;
-    for (int k = 1; k < count; ++k) {
-      const double want = sum * k / count;
-      while (e + 1 < weights[i].size() && before + weights[i][e] < want) before += weights[i][e++];
-      mesh.push_back(old[e] + (old[e + 1] - old[e]) * (want - before) / weights[i][e]);
-    }
-    mesh.push_back(1.0);
-    const chain::Chain::Placed placed = chain_->place(x, at, static_cast<int>(i));
-    out[i].nodes = bounded(mesh, placed.length * std::sqrt(placed.n.norm() / rod_.bending_stiffness));
-  }
-  return out;
-}
-
-double RodProblem::excess(const Vector& x, const Vector& p) {
-  const double goal = scene_.model.tolerance;
-  const double error = error_estimate(x, p);
-  // A strut is as long as its unit, so its strains, and with them the moments, are some ten times its rotations.
-  const double share = rod_.strut ? 0.03 : 0.3;
-  const double nodal = nodal_error_ > 3.0 * nodal_floor_ ? nodal_error_ : 0.0;
-  return std::max(error / goal, nodal / (share * std::min(goal, certificate_level)));
-}
-
-Vector RodProblem::refine(Vector x, const Vector& p, int rounds) {
-  for (int k = 0; k < rounds; ++k) {
-    const double before = nodal_error_;
-    double too_large = excess(x, p);
-    if (k > 1 && nodal_error_ > 0.3 * before) {
-      nodal_floor_ = nodal_error_;
-      too_large = excess(x, p);
-    }
-    if (too_large <= 1.0 && k > 0) return x;  // the first mesh is a guess and is always equidistributed
-    const Loads at = loads(p);
-    const double order = 2.0 * meshes_.back().stages;
-    meshes_ = new_meshes(x, at, std::pow(10.0 * too_large, 1.0 / order));
-    std::unique_ptr<chain::Chain> old = std::move(chain_);
-    rebuild();
-    x = chain::transfer_state(*old, *chain_, x, at);
-    if (polish(x, p) < 0) throw std::runtime_error("Newton failed after the mesh was adapted");
-  }
-  error_estimate(x, p);
-  return x;
-}
-
-std::optional<Vector> RodProblem::moved_to(std::vector<chain::ArcMesh> meshes, const Vector& x,
-                                           const Vector& p, bool within) {
-  const std::vector<chain::ArcMesh> old_meshes = std::exchange(meshes_, std::move(meshes));
-  const double old_nodal = nodal_error_;
-  const auto old_errors = std::tuple(last_error_, nodal_error_, estimated_x_, estimated_p_);
-  const std::unique_ptr<chain::Chain> old = std::move(chain_);
-  rebuild();
-  Vector fresh = chain::transfer_state(*old, *chain_, x, loads(p));
-  if (polish(fresh, p) >= 0) {
-    const double too_large = excess(fresh, p);
-    if (within && too_large <= 1.0) return fresh;
-    if (!within && (last_error_ > scene_.model.tolerance || nodal_error_ < 0.3 * old_nodal)) return fresh;
-    if (!within) nodal_floor_ = std::max(nodal_error_, old_nodal);  // rounding: no mesh helps
-  }
-  meshes_ = old_meshes;  // keep what works
-  rebuild();
-  std::tie(last_error_, nodal_error_, estimated_x_, estimated_p_) = old_errors;
-  return std::nullopt;
-}
-
-std::optional<Vector> RodProblem::adapt(const Vector& x, const Vector& p) {
-  // A mesh far finer than needed costs as much as one too coarse: shed when a quarter of it or more is superfluous.
-  constexpr double superfluous = 1e-3, worthwhile = 0.75;
-  const double too_large = excess(x, p);
-  // A straight strut is exact on any mesh, which says nothing about its modes: their loads need the mesh it has.
-  const bool coarsen = too_large < superfluous && last_error_ > 1.5 * rounding;
-  if (too_large <= 1.0 && !coarsen) return std::nullopt;
-  const double order = 2.0 * meshes_.back().stages;
-  const auto meshes = new_meshes(x, loads(p), std::pow(30.0 * too_large, 1.0 / order));
-  const auto elements = [](const std::vector<chain::ArcMesh>& arcs) {
-    std::size_t sum = 0;
-    for (const chain::ArcMesh& arc : arcs) sum += arc.nodes.size() - 1;
-    return static_cast<double>(sum);
-  };
-  if (coarsen && elements(meshes) > worthwhile * elements(meshes_)) return std::nullopt;
-  return moved_to(meshes, x, p, coarsen);
 }
 
 std::shared_ptr<continuation::Problem> RodProblem::clone() const {

@@ -25,18 +25,6 @@ bool admissible(const std::vector<ContactEvent>& events) {
   });
 }
 
-/// Arclengths of a chain's joints; the ends of infinite tails where the profile ends.
-std::vector<double> joint_places(RodProblem& problem, const Vector& x, const Vector& p,
-                                 const chain::Profile& shape) {
-  std::vector<double> s;
-  const contact::Loads at = problem.loads(p);
-  for (int j = 0; j < problem.chain().joint_count(); ++j) {
-    const double here = problem.chain().arclength(x, at, j);
-    s.push_back(std::isinf(here) ? (here > 0.0 ? shape.end() : shape.begin()) : here);
-  }
-  return s;
-}
-
 /// The successor's problem, with the old shape as guess.
 Entry draft(const RodProblem& from, const Successor& next, const chain::Profile& shape, const Vector& p) {
   constexpr int elements = 4;
@@ -143,7 +131,7 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, i
   const auto worst = std::min_element(events.begin(), events.end(),
                                       [](const auto& a, const auto& b) { return a.value < b.value; });
   if (depth == 0 || worst->kind != Kind::pressure) return std::nullopt;
-  const std::vector<double> s = joint_places(*entry.problem, entry.x, entry.p, shape);
+  const std::vector<double> s = entry.problem->joint_places(entry.x, entry.p, shape);
   for (const Successor& next : successors(*worst, shape, topology, s)) {
     if (next.opened.empty()) continue;
     std::vector<int> all;
@@ -194,7 +182,7 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
   const chain::Profile shape = profile(x, p);
   const ContactEvent event = contact_events(shape, topology_).at(which);
   std::optional<continuation::Transition> first;
-  for (const Successor& next : successors(event, shape, topology_, joint_places(*this, x, p, shape))) {
+  for (const Successor& next : successors(event, shape, topology_, joint_places(x, p, shape))) {
     continuation::Transition transition;
     transition.before = topology_.text();
     transition.after = next.topology.text();

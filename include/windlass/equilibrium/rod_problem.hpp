@@ -60,6 +60,8 @@ class RodProblem final : public continuation::Problem {
   int polish(Vector& x, const Vector& p, int most = 25);
 
   chain::Profile profile(const Vector& x, const Vector& p);
+  /// Arclengths of the chain's joints; the ends of infinite tails where `shape`, the state's profile, ends.
+  std::vector<double> joint_places(const Vector& x, const Vector& p, const chain::Profile& shape);
   contact::Loads loads(const Vector& p);
   Vector parameters() const;  ///< p of the scene itself
   scene::Scene scene_at(const Vector& p) const;

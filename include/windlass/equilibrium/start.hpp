@@ -27,11 +27,15 @@ struct Started {
 };
 
 /// One equilibrium from nothing. The contact topology is an outcome: first the closed form's (a line contact where it
-/// can exist, else a touch), then the state reached from a higher tension by continuation through all contact events.
-/// (discovery.hpp finds topologies by complementarity on a fixed mesh; it takes seconds where this takes milliseconds,
-/// and serves as its independent check in the tests.)
+/// can exist, else a touch), then the state reached from a higher tension by continuation through all contact events, and
+/// last, because it takes seconds where these take milliseconds, discovered_start().
 /// @throws NoEquilibrium
 Started cold_start(const scene::Scene& scene, bool spatial, bool half, const std::vector<std::string>& keys);
+
+/// An equilibrium on the contacts that complementarity on a fixed mesh finds (discovery.hpp). nullopt where it finds none,
+/// or Newton does not converge on them.
+std::optional<Started> discovered_start(const scene::Scene& scene, bool spatial, bool half,
+                                        const std::vector<std::string>& keys);
 
 /// The planar state as a state of the Kirchhoff rod (half or full chain): equal up to discretisation.
 Started lift(RodProblem& planar, const Vector& x, const Vector& p, bool half);

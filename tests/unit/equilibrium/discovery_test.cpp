@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "support/coil_scene.hpp"
+#include "windlass/equilibrium/start.hpp"
+
 using namespace windlass;
 using equilibrium::Discovery;
 using equilibrium::DiscoveryOptions;
@@ -106,6 +109,30 @@ BOOST_AUTO_TEST_CASE(two_turns_below_the_line_limit) {
     BOOST_TEST_MESSAGE((stretch.kind == Stretch::Kind::line ? "line " : "touch ")
                        << stretch.angle_begin / pi << " pi, force " << stretch.force);
   BOOST_TEST(!d.stretches.empty());
+}
+
+// The arcs' state on the discovered contacts is that of the other ways in, which never saw them.
+BOOST_AUTO_TEST_CASE(arcs_start_from_discovered_contacts) {
+  struct Case {
+    double tension, angle;
+  };
+  for (const Case& c : {Case{1.0, 2.0 * pi}, Case{0.4, 2.0 * pi}, Case{0.3, 0.5 * pi}})
+    for (const bool spatial : {false, true}) {
+      scene::Scene scene = test::coil_scene(c.tension);
+      scene.load.angle = c.angle;
+      const std::vector<std::string> keys{"load.tension"};
+      std::optional<equilibrium::Started> found = equilibrium::discovered_start(scene, spatial, true, keys);
+      equilibrium::Started known = equilibrium::cold_start(scene, spatial, true, keys);
+      BOOST_TEST_CONTEXT("T " << c.tension << ", phi " << c.angle << (spatial ? ", 3D" : ", plane")) {
+        BOOST_TEST_REQUIRE(found.has_value());
+        BOOST_TEST(found->problem->topology().text() == known.problem->topology().text());
+        const auto force = [](equilibrium::Started& start) {
+          return chain::total_contact_force(start.problem->profile(start.x, start.p),
+                                            start.problem->topology());
+        };
+        BOOST_TEST(std::abs(force(*found) / force(known) - 1.0) < 2e-8);  // twice the scene's tolerance
+      }
+    }
 }
 
 BOOST_AUTO_TEST_CASE(wrong_arguments_name_the_bound) {

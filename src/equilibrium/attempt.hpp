@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+
+#include "windlass/equilibrium/start.hpp"
+
+/// What the ways to a first equilibrium share.
+namespace windlass::equilibrium {
+
+/// Stages an element of a first mesh.
+inline constexpr int start_stages = 6;
+
+/// A first mesh for a stretch of this length.
+chain::ArcMesh first_mesh(chain::Stretch stretch, const contact::Loads& loads, double length);
+
+/// Right-half topology and joint places given; the full chain is its mirror image.
+struct Draft {
+  std::vector<chain::Stretch> right;
+  bool mid_touch = false;
+  std::vector<double> s;  ///< from the mid-point, right half
+};
+
+/// The equilibrium on the contacts of a draft, from the shape as guess; nullopt where Newton does not converge or a contact
+/// would pull.
+std::optional<Started> attempt(const scene::Scene& scene, bool spatial, bool half,
+                               const std::vector<std::string>& keys, const Draft& draft,
+                               const chain::Profile& profile);
+
+/// The state of `scene`, followed from a half-chain state at another value of the one parameter on `from.p`.
+/// @param failure  why it was not reached
+/// @throws NoContact where the rod lifts off on the way
+std::optional<Started> reach(const Started& from, const scene::Scene& scene, double goal, bool half,
+                             const std::vector<std::string>& keys, std::string& failure);
+
+/// A strut under the scene's thrust, or at its shortening. @throws NoEquilibrium
+Started straight_strut(const scene::Scene& scene, bool half, const std::vector<std::string>& keys);
+Started buckled_strut(const scene::Scene& scene, bool half, const std::vector<std::string>& keys);
+
+}  // namespace windlass::equilibrium

@@ -1,0 +1,57 @@
+#include <algorithm>
+
+#include "attempt.hpp"
+
+namespace windlass::equilibrium {
+
+using chain::ArcMesh;
+using chain::Stretch;
+using contact::Loads;
+
+Started unfold(RodProblem& halved, const Vector& x, const Vector& p, int iterations) {
+  // Through the recorded whole rod: sample the half, mirror it, and build the full chain on it.
+  const chain::Profile half = halved.profile(x, p);
+  const chain::Profile whole = chain::mirrored(half, halved.topology());
+  Topology topology = halved.topology();
+  topology.half = false;
+  topology.left = topology.right;
+  std::vector<ArcMesh> meshes = halved.meshes();
+  for (auto& mesh : meshes) {
+    std::vector<double> nodes;
+    for (auto node = mesh.nodes.rbegin(); node != mesh.nodes.rend(); ++node) nodes.push_back(1.0 - *node);
+    mesh.nodes = nodes;
+  }
+  std::reverse(meshes.begin(), meshes.end());
+  meshes.insert(meshes.end(), halved.meshes().begin(), halved.meshes().end());
+  auto problem =
+      std::make_shared<RodProblem>(halved.scene_at(p), halved.spatial(), topology, meshes, halved.keys());
+  const std::vector<double> right = halved.joint_places(x, p, half);
+  std::vector<double> s;
+  for (std::size_t j = right.size(); j-- > 1;) s.push_back(-right[j]);
+  s.insert(s.end(), right.begin(), right.end());
+  Vector y = chain::guess_state(problem->chain(), topology, problem->rod(), whole, s);
+  const int used = problem->polish(y, p);
+  if (used < 0) throw NoEquilibrium("Newton did not converge on the full chain from its symmetric half");
+  problem->error_estimate(y, p);
+  return {problem, y, p, iterations + used};
+}
+
+Started lift(RodProblem& planar, const Vector& x, const Vector& p, bool half) {
+  const chain::Profile shape = planar.profile(x, p);
+  std::vector<ArcMesh> meshes = planar.meshes();
+  const std::vector<Stretch> kinds = chain::stretches(planar.topology());
+  const Loads loads = planar.loads(p);
+  const std::vector<double> s = planar.joint_places(x, p, shape);
+  for (std::size_t i = 0; i < kinds.size(); ++i)
+    if (kinds[i] == Stretch::line) meshes[i] = first_mesh(Stretch::line, loads, s[i + 1] - s[i]);
+  auto problem =
+      std::make_shared<RodProblem>(planar.scene_at(p), true, planar.topology(), meshes, planar.keys());
+  Vector y = chain::guess_state(problem->chain(), planar.topology(), problem->rod(), shape, s);
+  const int used = problem->polish(y, p);
+  if (used < 0) throw NoEquilibrium("Newton did not converge on the Kirchhoff rod from the planar state");
+  y = problem->refine(y, p);
+  if (!half) return unfold(*problem, y, p, used);
+  return {problem, y, p, used};
+}
+
+}  // namespace windlass::equilibrium
