@@ -31,7 +31,7 @@ Successor Strip::successor() const {
 }
 
 bool Strip::astride(Stretch kind) const {
-  return !mid_touch && parts[marker].kind == kind && (half || parts[marker - 1].kind == kind);
+  return parts[marker].kind == kind && (half || parts[marker - 1].kind == kind);
 }
 
 void Strip::erase(int i, int bound) {

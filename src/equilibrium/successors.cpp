@@ -90,12 +90,13 @@ std::vector<Successor> after_length(const ContactEvent& event, Strip strip) {
   const int i = event.place;
   const Stretch kind = strip.parts[i].kind;
   const bool starts_at_mid = strip.starts_at_mid(i), ends_at_mid = strip.ends_at_mid(i);
-  if (strip.astride(kind) && (starts_at_mid || ends_at_mid)) {
+  if (!strip.mid_touch && strip.astride(kind) && (starts_at_mid || ends_at_mid)) {
     if (strip.close_about_mid()) return {strip.successor()};
     return {};
   }
   if (strip.mid_touch && (starts_at_mid || ends_at_mid)) {  // a touch meets the one at the mid-point
     strip.erase(i, starts_at_mid ? i + 1 : i);
+    strip.mid_touch = !strip.astride(Stretch::line);
     return {strip.successor()};
   }
   if (i == 0 || i + 1 == static_cast<int>(strip.parts.size())) return {};
@@ -141,8 +142,12 @@ std::vector<Successor> after_curvature(const ContactEvent& event, const Strip& s
     for (Eigen::Index k = 0; k < profile.pieces[i].s.size(); ++k)
       widest = std::max(widest, std::abs(chain::gap(profile.pieces[i].r.col(k))));
     if (widest > 1e-5) continue;
+    const auto is_line = [&](int part) {
+      return part >= 0 && part < static_cast<int>(strip.parts.size()) &&
+             strip.parts[part].kind == Stretch::line;
+    };
     Strip closed = strip;
-    closed.parts[i].kind = Stretch::line;
+    closed.merge(is_line(i - 1) ? i - 1 : i, is_line(i + 1) ? i + 1 : i, Stretch::line);
     out.push_back(closed.successor());
   }
   for (const double length : {0.05, 0.02, 0.1}) {  // of the new line
