@@ -150,14 +150,21 @@ void search(Segment& segment, const Sample& lo, const Sample& hi, int depth, std
       located.hi = hi.s;
       const double ds = segment.path_length(point->u, point->p[parameter] - lo.it.p[parameter]);
       const double part = ds / (hi.s - lo.s);
+      constexpr double same = 1e-5;  // the state is free along the null vector, to within its curvature
       const bool again = std::any_of(found.begin(), found.end(), [&](const Located& other) {
         return other.branch_point &&
-               (other.branch_point->x - point->x).norm() <= 1e-8 * (1.0 + point->x.norm()) &&
-               std::abs(other.branch_point->p[parameter] - point->p[parameter]) <= 100.0 * tolerance(segment);
+               (other.branch_point->x - point->x).norm() <= same * (1.0 + point->x.norm()) &&
+               std::abs(other.branch_point->p[parameter] - point->p[parameter]) <= 1e3 * tolerance(segment);
       });
-      // A little slack only: of two points close together each bracket must yield its own.
+      // A little slack only: of two points close together each bracket must yield its own. Where p is monotonic it says
+      // better than the chord whether the point is inside.
       const double slack = 0.01 + 1e-7 / (hi.s - lo.s);
-      if (part > -slack && part < 1.0 + slack && !again) {
+      const double p_lo = lo.it.p[parameter], p_hi = hi.it.p[parameter], p_here = point->p[parameter];
+      const bool monotonic = lo.tangent.p * hi.tangent.p > 0.0;
+      const double margin = 1e-4 * std::abs(p_hi - p_lo) + 1e-7;
+      const bool inside =
+          !monotonic || (p_here > std::min(p_lo, p_hi) - margin && p_here < std::max(p_lo, p_hi) + margin);
+      if (part > -slack && part < 1.0 + slack && inside && !again) {
         located.s = lo.s + std::clamp(part, 0.0, 1.0) * (hi.s - lo.s);
         located.precision = point->precision;
         located.index = lo.index;
