@@ -119,7 +119,7 @@ void BranchRecorder::on_point(const Branch& branch, const Point& point) {
     const std::string label = special(point) && labels_.insert(point.label).second ? point.label : "";
     output::BranchRow row =
         output::make_row(solution, branch.id + 1, ++in_branch_, label, type_name(point.type), point.ds);
-    report_odd_mode(row, point);
+    if (problem.topology().half) report_odd_mode(row, point);
     last_ = std::move(row);
     if (!writer_.info().extra_parameter.empty()) last_.parameter = point.p(0);
     writer_.add_point(last_, solution);

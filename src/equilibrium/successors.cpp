@@ -182,10 +182,9 @@ std::vector<Successor> after_graze(const ContactEvent& event, Strip strip) {
   return {strip.successor()};
 }
 
-}  // namespace
-
-std::vector<Successor> successors(const ContactEvent& event, const Profile& profile, const Topology& topology,
-                                  const std::vector<double>& s) {
+/// Candidates for what follows the event, the other half of a full chain left as it is.
+std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profile, const Topology& topology,
+                                 const std::vector<double>& s) {
   constexpr double vanished = 2.0 * least_length;
   const Strip strip(topology, s);
   const auto vanishing_line = [&](int link) {
@@ -210,6 +209,56 @@ std::vector<Successor> successors(const ContactEvent& event, const Profile& prof
       return after_graze(event, strip);
   }
   return {};
+}
+
+/// The same with the change made on both sides: the half that changed and its mirror image.
+/// @param links  of the old chain
+Successor both_sided(const Successor& next, bool right_changed, int links) {
+  const auto marker = static_cast<int>(next.topology.left.size());
+  Successor out = next;
+  out.topology.left = out.topology.right = right_changed ? next.topology.right : next.topology.left;
+  const auto half = static_cast<int>(out.topology.right.size());
+  const auto kept = [&](int k) {
+    return right_changed ? marker + k : marker - 1 - k;
+  };  // k from the mid-point
+  out.s.assign(2 * half + 1, 0.0);
+  out.source.assign(2 * half, 0);
+  out.opened.clear();
+  for (int k = 0; k < half; ++k) {
+    out.s[half + 1 + k] = std::abs(next.s[right_changed ? marker + k + 1 : marker - 1 - k]);
+    out.s[half - 1 - k] = -out.s[half + 1 + k];
+    const int source = next.source[kept(k)], image = links - 1 - source;
+    out.source[half + k] = right_changed ? source : image;
+    out.source[half - 1 - k] = right_changed ? image : source;
+    if (std::find(next.opened.begin(), next.opened.end(), kept(k)) == next.opened.end()) continue;
+    out.opened.push_back(half + k);
+    out.opened.push_back(half - 1 - k);
+  }
+  out.nothing_left = !out.topology.contact();
+  return out;
+}
+
+bool symmetric(const Topology& topology, const std::vector<double>& s) {
+  constexpr double same = 1e-6;
+  if (topology.half || topology.left != topology.right) return false;
+  for (std::size_t j = 0; j < s.size(); ++j)
+    if (!(std::abs(s[j] + s[s.size() - 1 - j]) < same)) return false;
+  return true;
+}
+
+}  // namespace
+
+std::vector<Successor> successors(const ContactEvent& event, const Profile& profile, const Topology& topology,
+                                  const std::vector<double>& s) {
+  std::vector<Successor> out;
+  for (Successor& next : one_sided(event, profile, topology, s)) {
+    // Of a symmetric state mirror images go together.
+    const bool right = next.topology.right != topology.right, left = next.topology.left != topology.left;
+    if (right != left && symmetric(topology, s))
+      out.push_back(both_sided(next, right, static_cast<int>(profile.pieces.size())));
+    out.push_back(std::move(next));
+  }
+  return out;
 }
 
 }  // namespace windlass::equilibrium
