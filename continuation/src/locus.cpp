@@ -282,7 +282,7 @@ void LocusWalker::pass(LocusPoint point, std::size_t which, const std::string& e
       if (!valid) continue;
       tangent_ *= sign;
       system_->residual(base);
-      step_length_.reset(0.1 * step_length_.current());
+      step_length_.reset(0.1 * step_length_.usual());
       queue_.push_back(std::move(point));
       return;
     }

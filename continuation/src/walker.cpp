@@ -131,14 +131,19 @@ void Walker::start() {
   state_.points = 1;
   state_.previous_tangent = state_.tangent;
   remember_start();
+  queue_.push_back(here(PointType::start));
+}
+
+Point Walker::here(PointType type) const {
   Point point;
   point.problem = state_.problem;
   point.x = state_.x;
   point.p = state_.p;
   point.tangent = state_.tangent;
-  point.type = PointType::start;
+  point.type = type;
   point.index = point.index_after = state_.index;
-  queue_.push_back(std::move(point));
+  point.path_length = state_.path_length;
+  return point;
 }
 
 void Walker::remember_start() {

@@ -121,14 +121,12 @@ bool Walker::advance_once(std::string& failure) {
     pass(std::move(point), event->which, event->event, state_.tangent.p < 0.0 ? -1 : 1);
     return true;
   }
-  Point point;
-  point.ds = end->s;
-  point.newton_iterations = end->report.iterations;
+  const double ds_taken = end->s;
+  const int iterations = end->report.iterations;
   settle(segment, *end);
   ++state_.points;
   state_.events_in_place = 0;
   if (reason) {
-    point.type = PointType::end;
     pending_end_ = reason;
   } else {
     step_length_.accepted(report.iterations, report.contraction);
@@ -137,12 +135,9 @@ bool Walker::advance_once(std::string& failure) {
   }
   adapt();  // first, so that every point is yielded on a discretisation that suits it
   if (state_.end) return true;
-  point.problem = state_.problem;
-  point.x = state_.x;
-  point.p = state_.p;
-  point.tangent = state_.tangent;
-  point.index = point.index_after = state_.index;
-  point.path_length = state_.path_length;
+  Point point = here(reason ? PointType::end : PointType::regular);
+  point.ds = ds_taken;
+  point.newton_iterations = iterations;
   queue_.push_back(std::move(point));
   return true;
 }

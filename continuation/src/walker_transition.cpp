@@ -88,15 +88,7 @@ void Walker::pass(Point event, std::size_t which, const std::string& name, int d
   queue_.push_back(std::move(event));
   for (const double stop : {options_.target, options_.lower, options_.upper}) {
     if (parameter(state_.p) != stop || stop == before) continue;  // entered beside the event, at a stop value
-    Point end;
-    end.type = PointType::end;
-    end.problem = state_.problem;
-    end.x = state_.x;
-    end.p = state_.p;
-    end.tangent = state_.tangent;
-    end.index = end.index_after = state_.index;
-    end.path_length = state_.path_length;
-    queue_.push_back(std::move(end));
+    queue_.push_back(here(PointType::end));
     pending_end_ = stop == options_.target ? End{End::Kind::target, "target reached"}
                                            : End{End::Kind::bound, "bound reached"};
     return;

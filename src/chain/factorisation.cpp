@@ -279,8 +279,7 @@ MatrixXd Chain::variation_matrix(Purpose purpose, const Numbering& numbering, co
 }
 
 int Chain::index(const VectorXd& x, const Loads& loads, Parity parity) const {
-  const bool symmetric_half = joints_[0]->kind() == JointKind::mid || fixed_s_[0] == 0.0;
-  if (parity == Parity::odd && !symmetric_half) return 0;
+  if (parity == Parity::odd && !half()) return 0;
   const Purpose purpose = parity == Parity::odd ? Purpose::odd : Purpose::even;
   const Numbering numbering = number(purpose);
   MatrixXd dense = variation_matrix(purpose, numbering, x, loads);

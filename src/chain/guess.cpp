@@ -113,7 +113,7 @@ VectorXd guess_state(const Chain& chain, const Topology& topology, const RodKind
   return x;
 }
 
-Profile mirrored(const Profile& half, const Topology&) {
+Profile mirrored(const Profile& half) {
   const Vector3d turn(-1.0, 1.0, -1.0);
   const Eigen::Vector4d q0 = half.pieces.front().q.col(0), j(0, 0, 1, 0), i(0, 1, 0, 0);
   const double sign = rod::product(j, rod::product(q0, i)).dot(q0) < 0.0 ? -1.0 : 1.0;

@@ -35,8 +35,7 @@ Sparse Chain::sparse_hessian(Purpose purpose, const Placed& placed, int link) co
 }
 
 Chain::SecondVariation Chain::second_variation(const VectorXd& x, const Loads& loads, Parity parity) const {
-  const bool half = joints_[0]->kind() == contact::JointKind::mid || fixed_s_[0] == 0.0;
-  const Purpose purpose = parity == Parity::odd && half ? Purpose::odd : Purpose::even;
+  const Purpose purpose = parity == Parity::odd && half() ? Purpose::odd : Purpose::even;
   residual(x, loads);  // leaves the arcs' gradients
   const Numbering numbering = number(purpose);
   const Eigen::Index total = size_ - dense_size_ + numbering.size;
@@ -91,10 +90,9 @@ Sparse Chain::material_metric(const Numbering& numbering, const Placed& placed, 
 }
 
 VectorXd Chain::as_increment(const VectorXd& variation, Parity parity) const {
-  const bool half = joints_[0]->kind() == contact::JointKind::mid || fixed_s_[0] == 0.0;
-  const Numbering numbering = number(parity == Parity::odd && half ? Purpose::odd : Purpose::even);
+  const Numbering numbering = number(parity == Parity::odd && half() ? Purpose::odd : Purpose::even);
   VectorXd dx = VectorXd::Zero(size_);
-  for (int j = parity == Parity::odd && half ? 1 : 0; j < joint_count(); ++j)
+  for (int j = parity == Parity::odd && half() ? 1 : 0; j < joint_count(); ++j)
     dx.segment(numbering_.coordinate[j], joints_[j]->tangent()) =
         variation.segment(numbering.coordinate[j], joints_[j]->tangent());
   dx.tail(size_ - dense_size_) = variation.tail(size_ - dense_size_);

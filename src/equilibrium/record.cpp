@@ -17,7 +17,8 @@ using Eigen::Vector4d;
 namespace {
 
 /// Element ends only: there collocation is superconvergent, and the certificate integrates from sample to sample.
-ArcRecord arc_record(const Piece& piece, Stretch stretch) {
+ArcRecord arc_record(const Piece& piece) {
+  const Stretch stretch = piece.stretch;
   ArcRecord arc;
   arc.kind = stretch == Stretch::line ? ArcKind::line : ArcKind::free;
   arc.role = stretch == Stretch::line ? "line" : stretch == Stretch::gap ? "gap" : "tail";
@@ -41,26 +42,6 @@ ArcRecord arc_record(const Piece& piece, Stretch stretch) {
   arc.s_end = arc.s(count - 1);
   arc.force = piece.force;
   return arc;
-}
-
-/// Image of an arc under the half-turn about e_y with s → −s. Directors: d1 → Rot d1, d2, d3 → −Rot d2, d3.
-ArcRecord mirrored(const ArcRecord& arc, double sign) {
-  ArcRecord out = arc;
-  const Vector3d turn(-1.0, 1.0, -1.0);
-  const Eigen::Index count = arc.s.size();
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const Eigen::Index i = count - 1 - k;
-    out.s(k) = -arc.s(i);
-    out.r.col(k) = turn.cwiseProduct(arc.r.col(i));
-    out.q.col(k) =
-        sign * rod::product(Vector4d(0, 0, 1, 0), rod::product(arc.q.col(i), Vector4d(0, 1, 0, 0)));
-    out.n.col(k) = -turn.cwiseProduct(arc.n.col(i));
-    out.m.col(k) = -turn.cwiseProduct(arc.m.col(i));
-    out.p(k) = arc.p(i);
-  }
-  out.s_begin = out.s(0);
-  out.s_end = out.s(count - 1);
-  return out;
 }
 
 void append(ArcRecord& arc, const ArcRecord& next) {
@@ -108,30 +89,16 @@ JointRecord contact_record(const chain::Contact& c, double sign) {
 
 /// Arcs and joints of the whole rod from −L/2 to L/2.
 void assemble(const chain::Profile& shape, const Topology& topology, bool infinite, Solution& out) {
+  const chain::Profile whole = topology.half ? chain::mirrored(shape) : shape;
   std::vector<ArcRecord> arcs;
-  const std::vector<Stretch> kinds = chain::stretches(topology);
-  for (std::size_t i = 0; i < shape.pieces.size(); ++i) arcs.push_back(arc_record(shape.pieces[i], kinds[i]));
+  for (const Piece& piece : whole.pieces) arcs.push_back(arc_record(piece));
   std::vector<JointRecord> contacts;
-  for (const chain::Contact& c : shape.contacts) contacts.push_back(contact_record(c, 1.0));
-  if (topology.half) {
-    const Vector4d q0 = arcs.front().q.col(0);
-    const Vector4d image = rod::product(Vector4d(0, 0, 1, 0), rod::product(q0, Vector4d(0, 1, 0, 0)));
-    const double sign = image.dot(q0) < 0.0 ? -1.0 : 1.0;
-    std::vector<ArcRecord> all;
-    std::vector<JointRecord> joints;
-    for (std::size_t i = arcs.size(); i-- > 0;) all.push_back(mirrored(arcs[i], sign));
+  if (topology.half)
     for (std::size_t j = shape.contacts.size(); j-- > 0;)
-      if (!(topology.mid_touch && j == 0)) joints.push_back(contact_record(shape.contacts[j], -1.0));
-    if (!topology.mid_touch) {  // the first stretch spans both halves
-      append(all.back(), arcs.front());
-      arcs.erase(arcs.begin());
-    }
-    all.insert(all.end(), arcs.begin(), arcs.end());
-    joints.insert(joints.end(), contacts.begin(), contacts.end());
-    arcs = std::move(all);
-    contacts = std::move(joints);
-  } else if (!topology.mid_touch) {  // the mid-point of a full chain is no joint
-    const std::size_t marker = topology.left.size();
+      if (!(topology.mid_touch && j == 0)) contacts.push_back(contact_record(shape.contacts[j], -1.0));
+  for (const chain::Contact& c : shape.contacts) contacts.push_back(contact_record(c, 1.0));
+  if (!topology.mid_touch) {  // the mid-point is no joint: its stretch spans both halves
+    const std::size_t marker = topology.half ? topology.right.size() : topology.left.size();
     append(arcs[marker - 1], arcs[marker]);
     arcs.erase(arcs.begin() + static_cast<std::ptrdiff_t>(marker));
   }

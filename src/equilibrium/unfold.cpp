@@ -11,7 +11,7 @@ using contact::Loads;
 Started unfold(RodProblem& halved, const Vector& x, const Vector& p, int iterations) {
   // Through the recorded whole rod: sample the half, mirror it, and build the full chain on it.
   const chain::Profile half = halved.profile(x, p);
-  const chain::Profile whole = chain::mirrored(half, halved.topology());
+  const chain::Profile whole = chain::mirrored(half);
   Topology topology = halved.topology();
   topology.half = false;
   topology.left = topology.right;

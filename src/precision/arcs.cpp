@@ -133,7 +133,7 @@ bool ArcSolver::solve() {
   std::vector<double> s = reference_.s;
   chain::Profile guess = reference_.guess;
   if (!half_) {
-    guess = chain::mirrored(guess, topology);
+    guess = chain::mirrored(guess);
     topology.half = false;
     topology.left = topology.right;
     unfold(meshes, s);

@@ -67,6 +67,8 @@ class Walker {
   bool event_at_edge();
   void settle(Segment& segment, Sample& sample);
   Point special(Segment& segment, const Located& located);
+  /// The walker's own state as a point.
+  Point here(PointType type) const;
   void adapt();
 
   // walker_transition.cpp

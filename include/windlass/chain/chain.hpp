@@ -108,6 +108,8 @@ class Chain {
   Eigen::SparseMatrix<double> jacobian(const VectorXd& x, const Loads& loads) const;
 
  private:
+  /// Does the chain start at a symmetry point, so that variations of the other parity are to be counted too?
+  bool half() const { return fixed_s_[0] == 0.0; }
   /// Which unknowns the dense block holds: those of equilibrium, or those of a variation at fixed contact edges.
   enum class Purpose { equilibrium, even, odd };
 
