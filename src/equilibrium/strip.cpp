@@ -53,7 +53,31 @@ void Strip::split(int i, double at, Stretch left, Stretch right) {
   if (!half && marker > i) ++marker;
 }
 
-bool Strip::close_about_mid() {
+bool Strip::collapse(int i) {
+  const bool starts = starts_at_mid(i), ends = ends_at_mid(i);
+  if (!mid_touch && astride(parts[i].kind) && (starts || ends)) return collapse_about_mid();
+  if (mid_touch && (starts || ends)) {  // a touch meets the one at the mid-point
+    erase(i, starts ? i + 1 : i);
+    mid_touch = !astride(Stretch::line);
+    return true;
+  }
+  if (i == 0 || i + 1 == static_cast<int>(parts.size())) return false;
+  const bool line_before = parts[i - 1].kind == Stretch::line,
+             line_after = parts[i + 1].kind == Stretch::line;
+  if (line_before && line_after) {
+    merge(i - 1, i + 1, Stretch::line);
+    return true;
+  }
+  if (parts[i].kind == Stretch::line ||
+      (!line_before && !line_after))  // two edges or two touches meet: one touch
+    s[i] = 0.5 * (s[i] + s[i + 1]);
+  else if (line_before)  // line – gap – touch: the touch joins the line
+    s[i] = s[i + 1];
+  erase(i, i + 1);
+  return true;
+}
+
+bool Strip::collapse_about_mid() {
   erase(marker, marker + 1);
   if (!half) erase(marker - 1, marker - 1);
   const bool line_after = parts[marker].kind == Stretch::line;

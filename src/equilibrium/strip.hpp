@@ -33,8 +33,12 @@ struct Strip {
   void merge(int first, int last, chain::Stretch kind);
   /// Splits part i at s into (i, left) and (i + 1, right).
   void split(int i, double at, chain::Stretch left, chain::Stretch right);
-  /// Takes out the part about the mid-point, both halves of it. @returns false where something else meets there
-  bool close_about_mid();
+  /// Takes out part i, which has no length left, about the mid-point both halves of it: what met at its two ends meets
+  /// now. @returns false for an end of the rod
+  bool collapse(int i);
+
+ private:
+  bool collapse_about_mid();
 };
 
 }  // namespace windlass::equilibrium

@@ -86,32 +86,24 @@ std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& st
   return out;
 }
 
-std::vector<Successor> after_length(const ContactEvent& event, Strip strip) {
-  const int i = event.place;
-  const Stretch kind = strip.parts[i].kind;
-  const bool starts_at_mid = strip.starts_at_mid(i), ends_at_mid = strip.ends_at_mid(i);
-  if (!strip.mid_touch && strip.astride(kind) && (starts_at_mid || ends_at_mid)) {
-    if (strip.close_about_mid()) return {strip.successor()};
-    return {};
-  }
-  if (strip.mid_touch && (starts_at_mid || ends_at_mid)) {  // a touch meets the one at the mid-point
-    strip.erase(i, starts_at_mid ? i + 1 : i);
-    strip.mid_touch = !strip.astride(Stretch::line);
-    return {strip.successor()};
-  }
-  if (i == 0 || i + 1 == static_cast<int>(strip.parts.size())) return {};
-  const bool line = kind == Stretch::line, line_before = strip.parts[i - 1].kind == Stretch::line,
-             line_after = strip.parts[i + 1].kind == Stretch::line;
-  if (line_before && line_after) {
-    strip.merge(i - 1, i + 1, Stretch::line);
-    return {strip.successor()};
-  }
-  if (line || (!line_before && !line_after))  // two edges or two touches meet: one touch
-    strip.s[i] = 0.5 * (strip.s[i] + strip.s[i + 1]);
-  else if (line_before)  // line – gap – touch: the touch joins the line
-    strip.s[i] = strip.s[i + 1];
-  strip.erase(i, i + 1);
-  return {strip.successor()};
+/// A line that has this length or less at an event shrinks to nothing there.
+bool vanishes(const Strip& strip, int link) {
+  constexpr double vanished = 2.0 * least_length;
+  return link >= 0 && link < static_cast<int>(strip.parts.size()) &&
+         strip.parts[link].kind == Stretch::line && std::abs(strip.s[link + 1] - strip.s[link]) < vanished;
+}
+
+std::vector<Successor> after_length(int link, const Strip& strip) {
+  std::vector<Successor> out;
+  // In long helices lines shrink to nothing together, at distances that differ by less than rounding.
+  Strip together = strip;
+  int count = 0;
+  for (int i = static_cast<int>(strip.parts.size()); i-- > 0;)
+    if (i == link || vanishes(strip, i)) count += together.collapse(i);
+  if (count > 1) out.push_back(together.successor());
+  Strip alone = strip;
+  if (alone.collapse(link)) out.push_back(alone.successor());
+  return out;
 }
 
 std::vector<Successor> after_force(const ContactEvent& event, Strip strip, const Profile& profile,
@@ -185,23 +177,17 @@ std::vector<Successor> after_graze(const ContactEvent& event, Strip strip) {
 /// Candidates for what follows the event, the other half of a full chain left as it is.
 std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profile, const Topology& topology,
                                  const std::vector<double>& s) {
-  constexpr double vanished = 2.0 * least_length;
   const Strip strip(topology, s);
-  const auto vanishing_line = [&](int link) {
-    return link >= 0 && link < static_cast<int>(strip.parts.size()) &&
-           strip.parts[link].kind == Stretch::line && std::abs(s[link + 1] - s[link]) < vanished;
-  };
-  // With a line that shrinks to nothing its pressure (phi = pi) or its edges' forces may change sign: it leaves a touch.
-  const auto gone = [](int link) { return ContactEvent{Kind::length, link, 0.0, 0.0}; };
   switch (event.kind) {
     case Kind::pressure:
-      if (vanishing_line(event.place)) return after_length(gone(event.place), strip);
+      // With a line that shrinks to nothing its pressure (phi = pi) or its edges' forces may change sign.
+      if (vanishes(strip, event.place)) return after_length(event.place, strip);
       return after_pressure(event, strip, profile.pieces[event.place]);
     case Kind::length:
-      return after_length(event, strip);
+      return after_length(event.place, strip);
     case Kind::force:
       for (const int link : {event.place - 1, event.place})
-        if (vanishing_line(link)) return after_length(gone(link), strip);
+        if (vanishes(strip, link)) return after_length(link, strip);
       return after_force(event, strip, profile, topology);
     case Kind::curvature:
       return after_curvature(event, strip, profile);
