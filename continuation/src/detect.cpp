@@ -96,9 +96,7 @@ std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, co
     };
     const Bracket bracket = find_zero(0.0, sign * first->value, top->s, sign * find(top->events, name)->value,
                                       tolerance(segment), value);
-    // Where the equations are singular right at the event, its bracket is as narrow as they allow; the state before it
-    // is the valid one.
-    event.s = bracket.converged ? bracket.best : bracket.lo;
+    event.s = bracket.lo;  // the state before the event is the valid one
     Sample* best = segment.at(event.s, false);
     event.sample = best ? *best : segment.base();
     event.lo = bracket.lo;

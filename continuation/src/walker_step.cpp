@@ -102,6 +102,13 @@ bool Walker::advance_once(std::string& failure) {
   std::vector<Located> specials;
   if (options_.detect_branch_points && end->s > 0.0)
     specials = locate_branch_points(segment, segment.base(), *end);
+  // Where an event function vanishes the equations it belongs to may become singular with it: the branch that crosses
+  // there is not of this problem's.
+  if (event)
+    std::erase_if(specials, [&](const Located& l) {
+      const double p = segment.parameter(*end);
+      return std::abs(segment.parameter(l.sample) - p) < 1e-8 * std::max(1.0, std::abs(p));
+    });
   if (fold) {
     // On the side branch of a pitchfork dp/ds vanishes at the branch point: that is not a fold.
     const double close_by = 1e-4 * ds + 1e-7;

@@ -88,7 +88,7 @@ std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& st
 
 /// A line that has this length or less at an event shrinks to nothing there.
 bool vanishes(const Strip& strip, int link) {
-  constexpr double vanished = 2.0 * least_length;
+  constexpr double vanished = 3.0 * least_length;  // one across the mid-point is seen when twice as long
   return link >= 0 && link < static_cast<int>(strip.parts.size()) &&
          strip.parts[link].kind == Stretch::line && std::abs(strip.s[link + 1] - strip.s[link]) < vanished;
 }
