@@ -98,8 +98,10 @@ std::vector<Successor> after_length(int link, const Strip& strip) {
   // In long helices lines shrink to nothing together, at distances that differ by less than rounding.
   Strip together = strip;
   int count = 0;
-  for (int i = static_cast<int>(strip.parts.size()); i-- > 0;)
+  for (int i = static_cast<int>(strip.parts.size()); i-- > 0;) {
+    if (strip.ends_at_mid(i) && vanishes(strip, i + 1)) continue;  // went with its twin across the mid-point
     if (i == link || vanishes(strip, i)) count += together.collapse(i);
+  }
   if (count > 1) out.push_back(together.successor());
   Strip alone = strip;
   if (alone.collapse(link)) out.push_back(alone.successor());
