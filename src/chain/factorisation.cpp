@@ -42,7 +42,7 @@ int negative_eigenvalues(MatrixXd a, double rounding) {
 /// Is a factorised matrix singular but for the error that Newton's method has left? A neutral motion's pivot is as small
 /// as that.
 bool is_singular(const Eigen::PartialPivLU<MatrixXd>& lu) {
-  constexpr double left = 1e-8;
+  constexpr double left = 1e-7;
   const auto pivots = lu.matrixLU().diagonal().cwiseAbs();
   return pivots.minCoeff() < left * pivots.maxCoeff();
 }

@@ -95,7 +95,8 @@ std::unique_ptr<Arc> make_arc(const RodKind& rod, Stretch stretch, const ArcMesh
 /// alone is about to become one of the two.
 bool turns_freely(const RodKind& rod, const Topology& t) {
   const double half_turns = rod.pull_angle / M_PI, whole = std::round(half_turns);
-  if (!(std::abs(half_turns - whole) < 1e-9)) return false;
+  constexpr double nearly = 1e-5;  // there too the turn costs too little to be told from rounding
+  if (!(std::abs(half_turns - whole) < nearly)) return false;
   const std::vector<Stretch> all = stretches(t);
   const auto has = [&](Stretch kind) { return std::find(all.begin(), all.end(), kind) != all.end(); };
   if (std::remainder(whole, 2.0) == 0.0) return !(has(Stretch::line) && has(Stretch::gap));

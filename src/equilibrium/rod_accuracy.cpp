@@ -39,7 +39,8 @@ std::vector<double> bounded(const std::vector<double>& mesh, double growth) {
 
 double RodProblem::error_estimate(const Vector& x, const Vector& p) {
   const Loads at = loads(p);  // may rebuild the chain
-  if (estimated_x_.size() == x.size() && estimated_x_ == x && estimated_p_ == p) return last_error_;
+  const bool asked_before = estimated_p_.size() == p.size() && estimated_x_.size() == x.size();
+  if (asked_before && estimated_x_ == x && estimated_p_ == p) return last_error_;
   estimated_x_ = x;
   estimated_p_ = p;
   bool meshed = false;

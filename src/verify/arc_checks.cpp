@@ -96,7 +96,7 @@ double integrate_piece(RodFlow& flow, const ArcRecord& arc, Eigen::Index i, bool
   const double length = arc.s[i + 1] - arc.s[i], growth = scales.moment / std::sqrt(law.K[0]);
   if (std::abs(length) < tight) {  // an arc that vanishes at an event: both samples are one place
     compare(start, stored, scales, found);
-    return 0.0;
+    return arc.kind == ArcKind::line ? 0.5 * (arc.p[i] + arc.p[i + 1]) * length : 0.0;
   }
   std::vector<Section> sections = {start};
   // plain integration, the cheap and direct way; after it has lost e^20 there is no point in trying

@@ -140,4 +140,12 @@ BOOST_AUTO_TEST_CASE(clamped_ends_of_long_rods_change_nothing) {
   BOOST_TEST(relative(solved(scene).R_tot, rod::capstan::total_force(1.0, 2 * M_PI)) < 1e-9);
 }
 
+// Nothing is unknown there, neither a coordinate nor, to `solve`, a parameter.
+BOOST_AUTO_TEST_CASE(one_touch_between_infinite_tails) {
+  scene::Scene scene = capstan(2.0, 0.25 * M_PI, std::numeric_limits<double>::infinity());
+  scene.model.kind = scene::ModelKind::planar;
+  const equilibrium::Solution solution = equilibrium::solve(scene);
+  BOOST_TEST(solution.R_tot == 4.0 * std::sin(0.125 * M_PI), boost::test_tools::tolerance(1e-14));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
