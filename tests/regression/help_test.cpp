@@ -30,6 +30,7 @@ BOOST_AUTO_TEST_CASE(the_manual_names_every_command_option_and_key) {
   for (const char* part :
        {"windlass diagram SCENE", "\\-\\-min\\-tension", "continuation.max_points", ".SH COMMON OPTIONS"})
     BOOST_TEST(outcome.out.find(part) != std::string::npos, part);
+  BOOST_TEST(outcome.out.find("{false}") == std::string::npos);
   if (std::system("command -v groff > /dev/null 2>&1") != 0) return;
   const TemporaryFolder folder;
   folder.write("page.1", outcome.out);
@@ -59,6 +60,7 @@ BOOST_AUTO_TEST_CASE(bash_completes_commands_options_choices_and_labels) {
   BOOST_TEST(completed("windlass plot run --form", 3) == "--format\n");
   BOOST_TEST(completed("windlass plot run --format s", 4) == "svg\n");
   BOOST_TEST(completed("windlass locus run \"\"", 3) == "B1\n");
+  BOOST_TEST(completed("windlass locus --force --in load.angle run \"\"", 6) == "B1\n");
   BOOST_TEST(completed("windlass solve x.toml --set load.ten", 4) == "load.tension\n");
 }
 

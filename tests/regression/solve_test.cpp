@@ -1,0 +1,86 @@
+// One equilibrium, as a user asks for it.
+#include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
+
+#include "regression/coil_run.hpp"
+#include "windlass/rod/capstan.hpp"
+
+using namespace windlass::test;
+namespace capstan = windlass::rod::capstan;
+namespace fs = std::filesystem;
+
+BOOST_AUTO_TEST_SUITE(solve)
+
+BOOST_AUTO_TEST_CASE(solve_prints_what_the_contract_names) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run_program(planar("solve", {"--set", "load.tension=1", "--json"}), folder.path());
+  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  const auto json = nlohmann::json::parse(outcome.out);
+  for (const char* key :
+       {"parameters", "model", "model_reason", "converged", "newton_iterations", "R_tot", "phi_star", "tilt",
+        "z_span", "energy", "contact", "stability", "invariants", "error_estimate", "mesh", "seconds"})
+    BOOST_TEST(json.contains(key), key);
+  BOOST_TEST(!json.contains("F0"));  // the scene has no friction
+  BOOST_TEST(json["parameters"]["T"] == 1.0);
+  BOOST_TEST(json["parameters"]["phi"].get<double>() == full_turn);
+  BOOST_TEST(json["model"] == "planar");
+  BOOST_TEST(json["converged"].get<bool>());
+  BOOST_TEST(relative(json["R_tot"], capstan::total_force(1.0, full_turn)) < 1e-8);
+  BOOST_TEST(relative(json["phi_star"], capstan::phi_star(1.0, full_turn)) < 1e-8);
+  BOOST_TEST(json["error_estimate"].get<double>() < 1e-8);
+  BOOST_TEST(json["stability"]["index"] == 0);
+  BOOST_TEST(!json["stability"]["degenerate"].get<bool>());
+  for (const char* key : {"hamiltonian_drift", "axial_torque_drift", "force_residual"})
+    BOOST_TEST(json["invariants"][key].get<double>() < 1e-8, key);
+  const auto& contact = json["contact"];
+  BOOST_TEST(contact["topology"] == "tail line tail");
+  BOOST_REQUIRE(contact["arcs"].size() == 3u);
+  BOOST_TEST(contact["arcs"][1]["kind"] == "line");
+  // The whole rod, and its contact forces, are the sum of what is listed.
+  BOOST_TEST(contact["arcs"][0]["s_begin"].get<double>() == -15.0);
+  BOOST_TEST(contact["arcs"][2]["s_end"].get<double>() == 15.0);
+  double sum = 0.0;
+  for (const char* list : {"arcs", "joints"})
+    for (const auto& part : contact[list]) sum += part["force"].get<double>();
+  BOOST_TEST(relative(sum, json["R_tot"]) < 1e-12);
+  BOOST_TEST(!fs::exists(folder.path() / "runs"));  // only --out makes a folder
+}
+
+BOOST_AUTO_TEST_CASE(infinite_length_equals_the_closed_form) {
+  for (const char* tension : {"0.51", "5"}) {
+    const std::string setting = std::string("load.tension=") + tension;
+    const Outcome outcome =
+        run_program(planar("solve", {"--set", "rod.length=inf", "--set", setting, "--json"}));
+    BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    const auto json = nlohmann::json::parse(outcome.out);
+    BOOST_TEST(relative(json["R_tot"], capstan::total_force(std::stod(tension), full_turn)) < 1e-10);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(physical_scenes_have_units) {
+  const std::string scene = std::string(std::getenv("WINDLASS_SCENES")) + "/capstan-vps-pom.toml";
+  const Outcome outcome = run_program({"solve", scene, "--set", "model.kind=planar", "--json"});
+  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  const auto json = nlohmann::json::parse(outcome.out);
+  BOOST_TEST(json.contains("physical"));
+  BOOST_TEST(relative(json["F0"], 0.32 * json["R_tot"].get<double>()) < 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(rod_shorter_than_its_contact) {
+  const Outcome outcome = run_program(planar("solve", {"--set", "rod.length=2"}));
+  BOOST_TEST(outcome.status == 1);
+  BOOST_TEST(contains(outcome.err, "rod.length = 2"), outcome.err);
+  BOOST_TEST(contains(outcome.err, "the rod is shorter than its contact arc"), outcome.err);
+}
+
+BOOST_AUTO_TEST_CASE(no_equilibrium_in_contact) {
+  // The free loop is wider than the cylinder below T = 0.284.
+  const Outcome outcome = run_program(planar("solve", {"--set", "load.tension=0.2", "--json"}));
+  BOOST_TEST(outcome.status == 2);
+  BOOST_TEST(outcome.out == "");
+  BOOST_TEST(contains(outcome.err, "windlass: no equilibrium in contact exists at load.tension = 0.2"),
+             outcome.err);
+  BOOST_TEST(contains(outcome.err, "lifts off the cylinder at 0.2839"), outcome.err);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
