@@ -49,6 +49,15 @@ std::string script_text(const Picture& picture, const std::vector<std::string>& 
          "  unset output\n  reset\n  set encoding utf8\n  set minussign\n}\n";
 }
 
+/// Every format has words at its end.
+void require_whole(const fs::path& picture) {
+  const std::string kind = picture.extension();
+  const std::string_view end = kind == ".png" ? "IEND" : kind == ".svg" ? "</svg>" : "%%EOF";
+  const std::string bytes = read_file(picture);
+  if (bytes.find(end, bytes.size() - std::min<std::size_t>(bytes.size(), 64)) == std::string::npos)
+    throw DeviceError("cannot write " + picture.string() + ": gnuplot left it incomplete, as on a full disk");
+}
+
 /// Text for a shell, in single quotes.
 std::string shell_text(const std::string& text) {
   std::string quoted = "'";
@@ -82,9 +91,18 @@ std::vector<fs::path> run_gnuplot(const Picture& picture, const fs::path& folder
   }
   if (status != 0) throw OutputError("gnuplot failed on " + (folder / script).string() + ": " + messages);
   std::vector<fs::path> pictures;
-  for (const std::string& format : formats)
+  for (const std::string& format : formats) {
     pictures.push_back(folder / (picture.stem + "." + extension(format)));
+    require_whole(pictures.back());
+  }
   return pictures;
+}
+
+std::string data_line(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values)
+    text += (text.empty() ? "" : " ") + (std::isfinite(value) ? format_number(value) : std::string("?"));
+  return text + "\n";
 }
 
 std::string gnuplot_text(const std::string& text, bool enhanced) {

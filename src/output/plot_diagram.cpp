@@ -24,7 +24,8 @@ constexpr int colour_count = 7;
 
 std::string colour_of(int branch) { return colours[(branch - 1 + colour_count * 1000) % colour_count]; }
 
-std::string line_style(const Piece& piece) {
+std::string line_style(const DiagramData& data, const Piece& piece) {
+  if (data.locus) return "lc rgb '" + colour_of(1) + "' lw 2.2 dt solid";
   std::string style = "lc rgb '" + colour_of(piece.branch) + "'";
   if (piece.state == ArmState::stable) return style + " lw 2.2 dt solid";
   if (piece.state == ArmState::unstable) return style + " lw 1.4 dt (12,7)";
@@ -48,9 +49,7 @@ void write_data(const DiagramData& data, const fs::path& path) {
     for (std::size_t i = 0; i < piece.rows.size(); ++i) {
       const auto& values = piece.rows[i];
       if (i > 0 && piece.breaks.contains(i)) text += "\n";
-      for (const double value : values)
-        text += (std::isfinite(value) ? format_number(value) : std::string("?")) + " ";
-      text += "\n";
+      text += data_line(values);
     }
     text += "\n\n";
   }
@@ -65,10 +64,7 @@ void write_special(const DiagramData& data, const fs::path& path) {
     text += std::string("# ") + type + "\n";
     for (const SpecialMark& mark : data.special) {
       if (mark.type != type) continue;
-      text += "\"" + mark.label + "\" " + mark.type;
-      for (const double value : mark.values)
-        text += " " + (std::isfinite(value) ? format_number(value) : std::string("?"));
-      text += "\n";
+      text += "\"" + mark.label + "\" " + mark.type + " " + data_line(mark.values);
     }
     text += "\n\n";
   }
@@ -77,8 +73,7 @@ void write_special(const DiagramData& data, const fs::path& path) {
 
 void write_measured(const PlotOptions& options, const fs::path& path) {
   std::string text = "# measured: T R_tot\n";
-  for (const auto& [T, force] : options.measured)
-    text += format_number(T) + " " + format_number(force) + "\n";
+  for (const auto& [T, force] : options.measured) text += data_line({T, force});
   replace_file(path, std::string_view(text));
 }
 
@@ -110,7 +105,7 @@ std::string panel_commands(const DiagramData& data, std::size_t column, const st
   std::string separator = " ";
   for (std::size_t i = 0; i < data.pieces.size(); ++i) {
     text += separator + "'" + stem + ".dat' index " + std::to_string(i) + using_x_y + " with lines notitle " +
-            line_style(data.pieces[i]);
+            line_style(data, data.pieces[i]);
     separator = ", \\\n    ";
   }
   int block = -1;  // gnuplot counts only blocks that hold data
@@ -131,7 +126,8 @@ std::string panel_commands(const DiagramData& data, std::size_t column, const st
 std::string legend_commands(const DiagramData& data, double top) {
   std::map<int, bool> branches;
   std::map<ArmState, bool> states;
-  for (const Piece& piece : data.pieces) branches[piece.branch] = true, states[piece.state] = true;
+  if (!data.locus)
+    for (const Piece& piece : data.pieces) branches[piece.branch] = true, states[piece.state] = true;
   std::string text = margins(0.02, 0.98, 0.1 * top, 0.9 * top) +
                      "  unset log\n  unset xlabel\n  unset ylabel\n  unset tics\n  unset border\n  unset "
                      "grid\n  set xrange [0:1]\n"
@@ -143,6 +139,7 @@ std::string legend_commands(const DiagramData& data, double top) {
     text += separator + "NaN " + style + " title " + gnuplot_text(title);
     separator = ", \\\n    ";
   };
+  if (data.locus) entry("with lines " + line_style(data, {}), data.title.substr(data.title.find(',') + 2));
   if (states.contains(ArmState::stable)) entry("with lines lc rgb 'black' lw 2.2 dt solid", "stable");
   if (states.contains(ArmState::unstable)) entry("with lines lc rgb 'black' lw 1.4 dt (12,7)", "unstable");
   if (states.contains(ArmState::unknown))
@@ -216,7 +213,7 @@ std::vector<fs::path> plot_diagram(const Run& run, const PlotOptions& options, c
   body +=
       "  set datafile missing '?'\n  set multiplot\n  set tics font ',9'\n  set grid lc rgb '#dddddd'\n  set "
       "key top left\n";
-  body += "  set label 1 " + gnuplot_text(run.info.scene) + " at screen 0.5, screen " +
+  body += "  set label 1 " + gnuplot_text(data.title) + " at screen 0.5, screen " +
           format_number(1 - 0.18 / height) + " center font ',11'\n";
   for (std::size_t k = 0; k < data.panels.size(); ++k) {
     const bool newtons = physical && k == 0, grams = physical && k == 1;

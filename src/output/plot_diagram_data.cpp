@@ -93,7 +93,8 @@ std::vector<Quantity> capstan_quantities(const Run& run, bool against_T) {
                   [](const BranchRow& r, double) { return r.phi_star / std::numbers::pi; }});
   double z_span = 0.0;
   for (const BranchRow& row : run.rows) z_span = std::max(z_span, row.z_span);
-  if (z_span > 1e-6) {
+  constexpr double flat = 1e-4;  // beside the singular points of a locus flat coils are flat to 1e-6 only
+  if (z_span > flat) {
     list.push_back({{"tilt", "tilt at the mid-point  [°]", false, 0, 0},
                     [](const BranchRow& r, double) { return r.tilt * 180.0 / std::numbers::pi; }});
   } else if (run.rows.front().eigenvalue_1) {
@@ -166,7 +167,11 @@ DiagramData diagram_data(const Run& run) {
   const Quantity x = horizontal_axis(run);
   const auto quantities =
       existing(run.info.has_cylinder ? capstan_quantities(run, x.axis.name == "T") : strut_quantities(), run);
-  DiagramData data{x.axis, {}, {}, {}};
+  DiagramData data;
+  data.x = x.axis;
+  data.locus = run.info.command == "locus";
+  data.title =
+      run.info.scene + (data.locus ? ", locus of " + run.info.options.value("of", "a special point") : "");
   std::map<int, std::vector<BranchRow>> branches;
   for (const BranchRow& row : run.rows) branches[row.branch].push_back(row);
   std::vector<std::vector<double>> seen(quantities.size() + 1);

@@ -40,6 +40,9 @@ struct SpecialMark {
 };
 
 struct DiagramData {
+  std::string title;
+  bool locus =
+      false;  ///< its two branches are the two directions of one curve, and stability is not asked for
   Axis x;
   std::vector<Axis> panels;  ///< at most four
   std::vector<Piece> pieces;

@@ -10,4 +10,10 @@ class OutputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The device gave out while results were written: it is full, over quota or broken. What was written before is whole.
+class DeviceError : public OutputError {
+ public:
+  using OutputError::OutputError;
+};
+
 }  // namespace windlass::output

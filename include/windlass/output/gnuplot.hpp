@@ -14,10 +14,16 @@ struct Picture {
   std::string body;     ///< gnuplot commands between `set output` and its closing
 };
 
-/// Formats are png, svg, pdf; "png@80" has 80 dots an inch instead of 150. Writes STEM.gp in `folder` and runs gnuplot on it there. @return the pictures made
+/// Writes STEM.gp in `folder` and runs gnuplot on it there.
+/// @param formats  of png, svg, pdf; "png@80" has 80 dots an inch instead of 150
+/// @return         the pictures made
 /// @throws OutputError when the script cannot be written, gnuplot is missing, or it reports an error (quoted)
+/// @throws DeviceError when a picture is not whole: gnuplot does not notice a full disk
 std::vector<std::filesystem::path> run_gnuplot(const Picture& picture, const std::filesystem::path& folder,
                                                const std::vector<std::string>& formats);
+
+/// A row of a data file; what is not finite becomes "?", the missing value of the scripts.
+std::string data_line(const std::vector<double>& values);
 
 /// Text in single quotes for gnuplot; in enhanced text mode _, ^, @, {, } and & lose their meaning.
 std::string gnuplot_text(const std::string& text, bool enhanced = true);

@@ -3,8 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <fstream>
 
+#include "support/temporary_folder.hpp"
 #include "synthetic_run.hpp"
-#include "temporary_folder.hpp"
 #include "windlass/output/error.hpp"
 #include "windlass/output/rod_curve.hpp"
 
@@ -120,6 +120,21 @@ BOOST_AUTO_TEST_CASE(pictures_scripts_and_data_are_made) {
   BOOST_CHECK_THROW(output::plot_run(temporary / "run", options), output::OutputError);
   options.points.clear(), options.formats = {"gif"};
   BOOST_CHECK_THROW(output::plot_run(temporary / "run", options), output::OutputError);
+}
+
+BOOST_AUTO_TEST_CASE(a_locus_is_one_curve_without_stability) {
+  if (std::system("gnuplot --version > /dev/null 2>&1") != 0) return;
+  const test::TemporaryFolder temporary;
+  test::write_synthetic_run(temporary / "run");
+  output::Run run = output::read_run(temporary / "run");
+  run.info.command = "locus", run.info.options["of"] = "B1";
+  output::PlotOptions options;
+  options.formats = {"svg"};
+  output::plot_diagram(run, options, temporary.path(), "diagram");
+  const std::string picture = output::read_file(temporary / "diagram.svg");
+  BOOST_TEST(picture.find("locus of B1") != std::string::npos);
+  for (const char* word : {"stable", "branch 2", "not computed"})
+    BOOST_TEST(picture.find(word) == std::string::npos, word);
 }
 
 BOOST_AUTO_TEST_CASE(struts_are_drawn_too) {

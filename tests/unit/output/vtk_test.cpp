@@ -6,8 +6,8 @@
 #include <boost/test/unit_test.hpp>
 #include <sstream>
 
+#include "support/temporary_folder.hpp"
 #include "synthetic_run.hpp"
-#include "temporary_folder.hpp"
 #include "windlass/output/error.hpp"
 #include "windlass/rod/capstan.hpp"
 
