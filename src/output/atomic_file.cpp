@@ -18,7 +18,11 @@ namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void fail(const std::string& doing, const fs::path& path, int error) {
-  throw OutputError("cannot " + doing + " " + path.string() + ": " + std::generic_category().message(error));
+  const std::string message =
+      "cannot " + doing + " " + path.string() + ": " + std::generic_category().message(error);
+  const bool device = error == ENOSPC || error == EDQUOT || error == EFBIG || error == EIO;
+  if (device && doing != "read") throw DeviceError(message);
+  throw OutputError(message);
 }
 
 /// write(2) until all is written. @return 0 or the errno

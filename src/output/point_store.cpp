@@ -2,15 +2,13 @@
 
 #include <cmath>
 
+#include "point_parts.hpp"
 #include "windlass/output/error.hpp"
 #include "windlass/output/records.hpp"
-#include "windlass/output/solution_json.hpp"
 
 namespace windlass::output {
 
 using equilibrium::ArcRecord;
-using equilibrium::JointRecord;
-using equilibrium::Mode;
 using equilibrium::Solution;
 using equilibrium::Stability;
 
@@ -21,25 +19,6 @@ constexpr const char* about =
     "points describes one equilibrium; its arcs are rows arc_begin[i] .. arc_begin[i]+arc_count[i]-1 of "
     "arcs, whose "
     "samples are rows sample_begin .. sample_begin+sample_count-1 of samples.";
-
-template <class Derived>
-void append(std::vector<double>& column, const Eigen::PlainObjectBase<Derived>& values) {
-  column.insert(column.end(), values.data(), values.data() + values.size());
-}
-
-/// Columns [begin, begin + count) of a quantity with Rows components a sample.
-template <int Rows>
-Eigen::Matrix<double, Rows, Eigen::Dynamic> block(const std::vector<double>& column, std::int64_t begin,
-                                                  std::int64_t count) {
-  using Block = Eigen::Matrix<double, Rows, Eigen::Dynamic>;
-  return Eigen::Map<const Block>(column.data() + Rows * begin, Rows, count);
-}
-
-Eigen::VectorXd segment(const std::vector<double>& column, std::int64_t begin, std::int64_t count) {
-  return Eigen::Map<const Eigen::VectorXd>(column.data() + begin, count);
-}
-
-std::int64_t size_of(const std::vector<double>& column) { return static_cast<std::int64_t>(column.size()); }
 
 void require_finite(const Solution& solution, const std::string& name) {
   bool finite = std::isfinite(solution.T) && std::isfinite(solution.phi) && std::isfinite(solution.R_tot) &&
@@ -57,64 +36,6 @@ void require_shapes(const ArcRecord& arc, const std::string& name) {
       arc.p.size() != count || count == 0) {
     throw OutputError("point " + name + " has an arc whose samples differ in number");
   }
-}
-
-/// An infinite tail ends, on disk, at its last stored sample; other doubles that do not exist become 0.
-double finite_or(double value, double otherwise) { return std::isfinite(value) ? value : otherwise; }
-
-void append_arc(PointColumns& columns, const ArcRecord& arc) {
-  columns.arcs.kind.push_back(arc.kind == equilibrium::ArcKind::line ? "line" : "free");
-  columns.arcs.role.push_back(arc.role);
-  columns.arcs.s_begin.push_back(finite_or(arc.s_begin, arc.s[0]));
-  columns.arcs.s_end.push_back(finite_or(arc.s_end, arc.s[arc.s.size() - 1]));
-  columns.arcs.force.push_back(finite_or(arc.force, 0.0));
-  columns.arcs.sample_begin.push_back(size_of(columns.samples.s));
-  columns.arcs.sample_count.push_back(arc.s.size());
-  append(columns.samples.s, arc.s);
-  append(columns.samples.r, arc.r);
-  append(columns.samples.q, arc.q);
-  append(columns.samples.n, arc.n);
-  append(columns.samples.m, arc.m);
-  append(columns.samples.p, arc.p);
-}
-
-ArcRecord read_arc(const PointColumns& columns, std::size_t row) {
-  const PointColumns::Arcs& arcs = columns.arcs;
-  const std::int64_t begin = arcs.sample_begin[row], count = arcs.sample_count[row];
-  ArcRecord arc;
-  arc.kind = arcs.kind[row] == "line" ? equilibrium::ArcKind::line : equilibrium::ArcKind::free;
-  arc.role = arcs.role[row];
-  arc.s_begin = arcs.s_begin[row];
-  arc.s_end = arcs.s_end[row];
-  arc.force = arcs.force[row];
-  arc.s = segment(columns.samples.s, begin, count);
-  arc.r = block<3>(columns.samples.r, begin, count);
-  arc.q = block<4>(columns.samples.q, begin, count);
-  arc.n = block<3>(columns.samples.n, begin, count);
-  arc.m = block<3>(columns.samples.m, begin, count);
-  arc.p = segment(columns.samples.p, begin, count);
-  return arc;
-}
-
-void append_joint(PointColumns& columns, const JointRecord& joint, double nearest_s) {
-  columns.joints.kind.push_back(joint_kind_name(joint.kind));
-  columns.joints.s.push_back(finite_or(joint.s, nearest_s));
-  columns.joints.angle.push_back(finite_or(joint.angle, 0.0));
-  columns.joints.z.push_back(finite_or(joint.z, 0.0));
-  columns.joints.force.push_back(finite_or(joint.force, 0.0));
-  for (const double component : joint.r) columns.joints.r.push_back(finite_or(component, 0.0));
-}
-
-JointRecord read_joint(const PointColumns& columns, std::size_t row) {
-  const PointColumns::Joints& joints = columns.joints;
-  JointRecord joint;
-  joint.kind = joint_kind_from_name(joints.kind[row]);
-  joint.s = joints.s[row];
-  joint.angle = joints.angle[row];
-  joint.z = joints.z[row];
-  joint.force = joints.force[row];
-  joint.r = block<3>(joints.r, static_cast<std::int64_t>(row), 1);
-  return joint;
 }
 
 /// Calls visit(column vector, field of the solution) for every real and integer that is stored as it stands,
@@ -197,39 +118,13 @@ void PointStore::append(const Key& key, const Solution& solution) {
                        &p.eigenvalue_count, &p.mode_begin, &p.mode_count}) {
     column->push_back(0);
   }
-  if (solution.stability) put_stability(*solution.stability, size() - 1);
-}
-
-/// Eigenvalues and modes are appended; earlier ones of the same point, if any, are no longer referred to.
-void PointStore::put_stability(const Stability& stability, std::size_t row) {
-  PointColumns::Points& p = columns_.points;
-  p.has_stability[row] = 1;
-  p.index[row] = stability.index;
-  p.inertia_index[row] = stability.inertia_index;
-  p.degenerate[row] = stability.degenerate;
-  p.eigenvalue_begin[row] = size_of(columns_.eigenvalues);
-  for (const double value : stability.eigenvalues) {
-    if (std::isfinite(value)) columns_.eigenvalues.push_back(value);
-  }
-  p.eigenvalue_count[row] = size_of(columns_.eigenvalues) - p.eigenvalue_begin[row];
-  p.mode_begin[row] = size_of(columns_.modes.eigenvalue);
-  for (const Mode& mode : stability.modes) {
-    if (!mode.displacement.allFinite() || mode.displacement.cols() != mode.s.size()) continue;
-    columns_.modes.eigenvalue.push_back(finite_or(mode.eigenvalue, 0.0));
-    columns_.modes.plane.push_back(mode.plane);
-    columns_.modes.parity.push_back(mode.parity);
-    columns_.modes.sample_begin.push_back(size_of(columns_.mode_samples.s));
-    columns_.modes.sample_count.push_back(mode.s.size());
-    output::append(columns_.mode_samples.s, mode.s);
-    output::append(columns_.mode_samples.displacement, mode.displacement);
-  }
-  p.mode_count[row] = size_of(columns_.modes.eigenvalue) - p.mode_begin[row];
+  if (solution.stability) put_stability(columns_, *solution.stability, size() - 1);
 }
 
 void PointStore::set_stability(const std::string& name, const Stability& stability) {
   const auto position = find(name);
   if (!position) throw OutputError("there is no stored point " + name);
-  put_stability(stability, *position);
+  put_stability(columns_, stability, *position);
 }
 
 std::optional<std::size_t> PointStore::find(const std::string& name) const {
@@ -246,28 +141,6 @@ Solution PointStore::get(const std::string& name) const {
   throw OutputError("there is no stored point \"" + name + "\"; labelled points are: " +
                     (known.empty() ? "none" : known) + "; others are called BRANCH-POINT, such as 1-1");
 }
-
-namespace {
-
-Stability read_stability(const PointColumns& columns, std::size_t row) {
-  const PointColumns::Points& p = columns.points;
-  Stability stability;
-  stability.index = static_cast<int>(p.index[row]);
-  stability.inertia_index = static_cast<int>(p.inertia_index[row]);
-  stability.degenerate = p.degenerate[row] != 0;
-  const auto first = columns.eigenvalues.begin() + p.eigenvalue_begin[row];
-  stability.eigenvalues.assign(first, first + p.eigenvalue_count[row]);
-  for (std::int64_t i = p.mode_begin[row]; i < p.mode_begin[row] + p.mode_count[row]; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const std::int64_t begin = columns.modes.sample_begin[k], count = columns.modes.sample_count[k];
-    stability.modes.push_back({columns.modes.eigenvalue[k], columns.modes.plane[k], columns.modes.parity[k],
-                               segment(columns.mode_samples.s, begin, count),
-                               block<3>(columns.mode_samples.displacement, begin, count)});
-  }
-  return stability;
-}
-
-}  // namespace
 
 Solution PointStore::get(std::size_t position) const {
   const PointColumns::Points& p = columns_.points;

@@ -1,8 +1,6 @@
 #include "windlass/output/run_folder.hpp"
 
-#include <algorithm>
-#include <set>
-
+#include "run_files.hpp"
 #include "windlass/output/branches_csv.hpp"
 #include "windlass/output/error.hpp"
 
@@ -12,13 +10,6 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 namespace {
-
-constexpr const char* scene_file = "scene.toml";
-constexpr const char* info_file = "run.json";
-constexpr const char* branches_file = "branches.csv";
-constexpr const char* special_file = "special_points.json";
-constexpr const char* points_file = "points.h5";
-constexpr const char* checkpoint_file = "checkpoint.cbor";
 
 /// Checks that a run may be written into the folder; nothing is made yet.
 void check_folder(const fs::path& folder, bool force) {
@@ -43,26 +34,6 @@ void remove_file(const fs::path& path) {
   std::error_code error;
   fs::remove(path, error);
   if (error) throw OutputError("cannot remove " + path.string() + ": " + error.message());
-}
-
-ordered_json parse_json(const fs::path& path) {
-  const std::string text = read_file(path);
-  try {
-    return ordered_json::parse(text);
-  } catch (const ordered_json::exception& error) {
-    throw OutputError("cannot read " + path.string() + ": it is truncated or not JSON (" + error.what() +
-                      ")");
-  }
-}
-
-/// Runs a conversion of already parsed JSON; a missing or mistyped key names the file.
-template <class Convert>
-auto convert_json(const fs::path& path, Convert convert) {
-  try {
-    return convert();
-  } catch (const ordered_json::exception& error) {
-    throw OutputError("cannot read " + path.string() + ": " + error.what());
-  }
 }
 
 }  // namespace
@@ -232,47 +203,6 @@ void RunWriter::write_special_points() const {
 
 void RunWriter::write_info() const {
   replace_file(folder_ / info_file, std::string_view(to_json(info_).dump(2) + "\n"));
-}
-
-const BranchRow& Run::row(const std::string& name) const {
-  for (const BranchRow& row : rows) {
-    if (name == row.label || name == point_name(row.branch, row.point, "")) return row;
-  }
-  throw OutputError("there is no point \"" + name + "\" in " + (folder / branches_file).string());
-}
-
-std::optional<Checkpoint> read_checkpoint(const fs::path& folder) {
-  const fs::path path = folder / checkpoint_file;
-  if (!fs::exists(path)) return std::nullopt;
-  const std::string bytes = read_file(path);
-  try {
-    nlohmann::json json = nlohmann::json::from_cbor(bytes);
-    const Extent extent{json.at("points"), json.at("special_points"), json.at("lost_branches")};
-    return Checkpoint{extent, std::move(json.at("state"))};
-  } catch (const nlohmann::json::exception& error) {
-    throw OutputError("cannot read " + path.string() + ": it is truncated or damaged (" + error.what() + ")");
-  }
-}
-
-Run read_run(const fs::path& folder, bool with_points) {
-  std::error_code error;
-  if (!fs::is_directory(folder, error)) {
-    throw OutputError("cannot read the run folder " + folder.string() + ": no such folder");
-  }
-  Run run;
-  run.folder = folder;
-  run.scene_toml = read_file(folder / scene_file);
-  const ordered_json info = parse_json(folder / info_file);
-  run.info = convert_json(folder / info_file, [&] { return run_info_from_json(info); });
-  run.rows = read_branches(folder / branches_file, run.info.has_cylinder, run.info.extra_parameter);
-  const ordered_json special = parse_json(folder / special_file);
-  run.special_points = convert_json(folder / special_file, [&] {
-    std::vector<SpecialPoint> points;
-    for (const ordered_json& entry : special) points.push_back(special_point_from_json(entry));
-    return points;
-  });
-  if (with_points) run.points = PointStore::read(folder / points_file);
-  return run;
 }
 
 }  // namespace windlass::output

@@ -94,7 +94,6 @@ class PointStore {
 
  private:
   void index_point(const Key& key);
-  void put_stability(const equilibrium::Stability& stability, std::size_t row);
 
   PointColumns columns_;
   std::vector<Key> keys_;

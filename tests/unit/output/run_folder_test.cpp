@@ -7,7 +7,7 @@
 #include <boost/test/unit_test.hpp>
 #include <fstream>
 
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 #include "unit/verify/closed_form_rods.hpp"
 #include "windlass/output/error.hpp"
 
@@ -282,6 +282,7 @@ BOOST_AUTO_TEST_CASE(damaged_folders_are_named) {
   damaged("branches.csv", "T,R\n1,2\n");
   damaged("branches.csv", rows + "1,6,,regular,abc,1,1,1,1,1,1,1,1,1,1,1,x\n");
   damaged("branches.csv", rows + "1,6\n");
+  damaged("branches.csv", rows.substr(0, rows.size() / 2));
   fs::remove(folder / "points.h5");
   BOOST_CHECK_EXCEPTION(output::read_run(folder), OutputError, mentions({"points.h5", "no such file"}));
 }
