@@ -1,16 +1,36 @@
+#include <fmt/format.h>
+
 #include <cstdio>
 
 #include "app/commands.hpp"
+#include "app/progress.hpp"
+#include "app/stored_point.hpp"
 #include "windlass/output/report.hpp"
+#include "windlass/petsc/session.hpp"
 
 namespace windlass::app {
 
 int run_report(const RunRequest& request) {
+  petsc::ensure_session();
   const scene::Scene scene = scene_of_run(request.run, request.common);
+  const output::Run run = output::read_run(request.run);
   output::ReportOptions options;
   options.units = scene.units;
   options.file = request.common.out;
-  const auto file = output::write_report(request.run, options);
+  Progress progress(request.common.quiet);
+  stability::SpectrumSolver solver;
+  // Runs hold the modes of special points only.
+  constexpr int eigenvalues = 4;
+  options.complete = [&](std::size_t position, equilibrium::Solution& solution) {
+    if (solution.stability && !solution.stability->modes.empty()) return;
+    progress.update(fmt::format("modes: point {} of {}", position + 1, run.points.size()));
+    try {
+      solution.stability = spectrum_of_point(scene, run, position, eigenvalues, solver);
+    } catch (const std::exception&) {  // out of reach at a singular point: the page shows what is stored
+    }
+  };
+  const auto file = output::write_report(run, options);
+  progress.finish();
   if (!request.common.quiet) std::printf("%s\n", file.string().c_str());
   return done;
 }

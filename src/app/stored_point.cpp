@@ -1,6 +1,9 @@
 #include "app/stored_point.hpp"
 
+#include "windlass/equilibrium/record.hpp"
+#include "windlass/equilibrium/start.hpp"
 #include "windlass/scene/keys.hpp"
+#include "windlass/stability/analysis.hpp"
 
 namespace windlass::app {
 
@@ -12,6 +15,14 @@ scene::Scene scene_of_point(scene::Scene scene, const output::Run& run, std::siz
   if (scene.has_cylinder) scene.load.tension = row.T, scene.load.angle = row.phi;
   if (!scene.has_cylinder && scene.ends.shortening) scene.ends.shortening = row.shortening;
   return scene;
+}
+
+equilibrium::Stability spectrum_of_point(const scene::Scene& scene, const output::Run& run,
+                                         std::size_t position, int count, stability::SpectrumSolver& solver) {
+  const equilibrium::Solution stored = run.points.get(position);
+  const scene::Scene at = scene_of_point(scene, run, position);
+  auto problem = equilibrium::reopen(at, stored.restart, {equilibrium::load_key(at)});
+  return stability::analyse(*problem, stored.restart.state, problem->parameters(), count, true, solver);
 }
 
 }  // namespace windlass::app

@@ -31,16 +31,15 @@ std::string html_safe(const std::string& text) {
 
 }  // namespace
 
-fs::path write_report(const fs::path& run_folder, const ReportOptions& options) {
+fs::path write_report(const Run& run, const ReportOptions& options) {
   if (assets::plotly_js().empty()) {
     throw OutputError(
         "this windlass was built without Plotly, which the report needs: install npm (Debian package npm), "
         "remove the "
         "build folder and build again with network access");
   }
-  const Run run = read_run(run_folder);
-  if (run.rows.empty()) throw OutputError("the run " + run_folder.string() + " holds no points to report");
-  const fs::path file = options.file.empty() ? run_folder / "report.html" : options.file;
+  if (run.rows.empty()) throw OutputError("the run " + run.folder.string() + " holds no points to report");
+  const fs::path file = options.file.empty() ? run.folder / "report.html" : options.file;
   std::string page(assets::page_html());
   replace_once(page, "<!--TITLE-->", html_safe(run.info.scene));
   replace_once(page, "/*STYLE*/", assets::page_css());

@@ -125,8 +125,11 @@ std::vector<Quantity> quantities(const Run& run, const ReportOptions& options) {
             {"end_force", "end thrust [EI/ρ²]", [](const BranchRow& r) { return r.end_force; }},
             {"end_moment", "axial end moment [EI/ρ]", [](const BranchRow& r) { return r.end_moment; }}};
   }
-  list.push_back({"tilt", "tilt at the mid-point [rad]", [](const BranchRow& r) { return r.tilt; }});
-  list.push_back({"z_span", "extent in z [ρ]", [](const BranchRow& r) { return r.z_span; }});
+  // A flat rod in three dimensions is flat to rounding.
+  const auto or_flat = [](double value) { return std::abs(value) < 1e-7 ? 0.0 : value; };
+  list.push_back(
+      {"tilt", "tilt at the mid-point [rad]", [or_flat](const BranchRow& r) { return or_flat(r.tilt); }});
+  list.push_back({"z_span", "extent in z [ρ]", [or_flat](const BranchRow& r) { return or_flat(r.z_span); }});
   list.push_back({"energy", "energy [EI/ρ]", [](const BranchRow& r) { return r.energy; }});
   list.push_back({"eigenvalue_1", "lowest eigenvalue",
                   [](const BranchRow& r) { return r.eigenvalue_1.value_or(std::nan("")); }});
@@ -192,9 +195,10 @@ ordered_json report_data(const Run& run, const ReportOptions& options) {
   for (std::size_t i = 0; i < run.points.size(); ++i) {
     const PointStore::Key& key = run.points.keys()[i];
     if (i % stride != 0 && key.label.empty()) continue;
-    const Solution solution = run.points.get(i);
-    if (!solution.arcs.empty())
-      data["rods"][point_name(key.branch, key.point, key.label)] = rod_json(solution);
+    Solution solution = run.points.get(i);
+    if (solution.arcs.empty()) continue;
+    if (options.complete) options.complete(i, solution);
+    data["rods"][point_name(key.branch, key.point, key.label)] = rod_json(solution);
   }
   return data;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "windlass/output/run_folder.hpp"
@@ -10,6 +11,8 @@ struct ReportOptions {
   std::optional<scene::Units> units;  ///< adds newtons and grams to the quantities on offer
   std::size_t most_rods = 600;        ///< rods stored in the page; of longer runs every k-th ordinary point
   std::filesystem::path file;         ///< empty: RUN/report.html
+  /// Called with each rod of the page and its place in the store, to add what the run does not hold (modes).
+  std::function<void(std::size_t position, equilibrium::Solution& solution)> complete;
 };
 
 /// Writes one self-contained HTML file (works offline, from a file:// address): the bifurcation diagram of any two
@@ -17,8 +20,8 @@ struct ReportOptions {
 /// clicked or under the cursor, the rod in 3D round its cylinder with the pressure in colour and point forces as
 /// arrows, the pressure along s, the eigenvalues, and the lowest mode laid over the rod.
 /// @return the file written
-/// @throws OutputError when the run cannot be read, the file not written, or the program was built without Plotly
-std::filesystem::path write_report(const std::filesystem::path& run, const ReportOptions& options = {});
+/// @throws OutputError when the run holds no points, the file cannot be written, or the program was built without Plotly
+std::filesystem::path write_report(const Run& run, const ReportOptions& options = {});
 
 /// What the page shows, as page.js expects it.
 nlohmann::ordered_json report_data(const Run& run, const ReportOptions& options);

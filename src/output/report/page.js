@@ -209,8 +209,8 @@
     Plotly.react("eigenvalues", [{ type: "scatter", mode: "markers", cliponaxis: false, x: values.map((_, i) => i + 1), y: values,
       marker: { size: 9, symbol: "diamond", color: values.map((v) => (v < 0 ? "#c00000" : "#0072b2")) }, hovertemplate: "%{y:.6g}<extra></extra>" }], {
       font: { ...font, size: 11 }, margin: { l: 48, r: 8, t: 6, b: 36 },
-      xaxis: { title: { text: "eigenvalue", standoff: 4 }, dtick: 1, range: [0.5, Math.max(values.length, 1) + 0.5], showline: true, gridcolor: "#eee" },
-      yaxis: { rangemode: "tozero", zeroline: true, zerolinecolor: "#999", zerolinewidth: 2, showline: true, gridcolor: "#eee" },
+      xaxis: { title: { text: "number", standoff: 4 }, dtick: 1, range: [0.5, Math.max(values.length, 1) + 0.5], showline: true, gridcolor: "#eee" },
+      yaxis: { title: { text: "eigenvalue" }, rangemode: "tozero", zeroline: true, zerolinecolor: "#999", zerolinewidth: 2, showline: true, gridcolor: "#eee" },
       annotations: values.length ? [] : [{ text: "not computed", showarrow: false, xref: "paper", yref: "paper", x: 0.5, y: 0.5 }],
     }, plain);
   }
@@ -238,6 +238,10 @@
     drawRod(found.rod);
     drawPressure(found.rod);
     drawEigenvalues(found.rod);
+    ["amplitude", "animate"].forEach((id) => {
+      element(id).disabled = !found.rod.mode;
+      element(id).title = found.rod.mode ? "" : "no mode is stored for this point";
+    });
     const traces = element("diagram").data;
     if (traces) {
       const mark = chosenTrace();

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <fstream>
 
+#include "support/temporary_folder.hpp"
 #include "synthetic_run.hpp"
-#include "temporary_folder.hpp"
 #include "windlass/output/error.hpp"
 
 namespace {
@@ -26,7 +26,7 @@ std::string output_of(const std::string& command) {
 /// True when the report can be made, i.e. Plotly was there at build time.
 bool built_with_plotly(const fs::path& run) {
   try {
-    output::write_report(run);
+    output::write_report(output::read_run(run));
     return true;
   } catch (const output::OutputError& error) {
     BOOST_TEST(std::string(error.what()).find("npm") != std::string::npos);
@@ -67,9 +67,17 @@ BOOST_AUTO_TEST_CASE(data_hold_every_point_and_its_rod) {
   BOOST_TEST(data.dump().find("nan") == std::string::npos);
   output::ReportOptions few;
   few.most_rods = 10;
+  std::size_t completed = 0;
+  few.complete = [&](std::size_t position, equilibrium::Solution& solution) {
+    BOOST_TEST(solution.T == run.points.get(position).T);
+    solution.stability->eigenvalues = {7.0};
+    ++completed;
+  };
   const auto thinned = output::report_data(run, few);
   BOOST_TEST(thinned["rods"].size() < 15u);
   BOOST_TEST(thinned["rods"].contains("BP1"));
+  BOOST_TEST(thinned["rods"].size() == completed);
+  BOOST_TEST(thinned["rods"]["BP1"]["eigenvalues"][0] == 7.0);
 }
 
 BOOST_AUTO_TEST_CASE(page_is_self_contained) {
