@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -18,6 +19,7 @@ namespace {
 
 using measurement::ComparedPoint;
 using measurement::FrictionFit;
+using output::ForceSource;
 
 measurement::Weights weights_of(const std::string& word) {
   return word == "absolute"   ? measurement::Weights::absolute
@@ -41,6 +43,7 @@ double tension_of(const std::string& text, const std::optional<scene::Units>& un
 /// The measured points with the model's forces, apart from those it has no stable state for and those of low tension.
 struct Comparison {
   std::vector<ComparedPoint> used, below;
+  std::vector<ForceSource> sources;  ///< of the forces of `used`
   std::vector<measurement::Measurement> without_state;
 };
 
@@ -49,12 +52,22 @@ Comparison compare(const FitRequest& request, const output::Run& run, const scen
   Comparison comparison;
   for (const auto& measured : measurement::read_measurements(request.csv, scene.units)) {
     const auto force = output::stable_contact_force(run, scene, measured.T);
-    if (!force || !(*force > 0.0))
+    if (!force || !(force->R_tot > 0.0)) {
       comparison.without_state.push_back(measured);
-    else
-      (measured.T < least ? comparison.below : comparison.used).push_back({measured, *force});
+    } else if (measured.T < least) {
+      comparison.below.push_back({measured, force->R_tot});
+    } else {
+      comparison.used.push_back({measured, force->R_tot});
+      comparison.sources.push_back(force->source);
+    }
   }
   return comparison;
+}
+
+const char* name(ForceSource source) {
+  return source == ForceSource::interpolated ? "interpolated"
+         : source == ForceSource::above_run  ? "above_run"
+                                             : "computed";
 }
 
 nlohmann::ordered_json to_json(const FrictionFit& fit, const Comparison& comparison) {
@@ -72,6 +85,7 @@ nlohmann::ordered_json to_json(const FrictionFit& fit, const Comparison& compari
                               {"T", point.measured.T},
                               {"F0", point.measured.F0},
                               {"R_tot", point.R_tot},
+                              {"R_tot_from", name(comparison.sources[i])},
                               {"residual", fit.residuals[i]}});
   }
   json["left_out"] = {{"low_tension", comparison.below.size()},
@@ -88,10 +102,19 @@ void print_points(const FrictionFit& fit, const Comparison& comparison,
   fmt::print("  {:>4}  {:>11}  {:>11}  {:>11}  {:>11}\n", "", unit, unit, unit, unit);
   for (std::size_t i = 0; i < comparison.used.size(); ++i) {
     const ComparedPoint& point = comparison.used[i];
-    fmt::print("  {:>4}  {:>11.5g}  {:>11.5g}  {:>11.5g}  {:>11.2g}  {:>11.5g}\n", point.measured.line,
+    const char* mark = comparison.sources[i] == ForceSource::interpolated ? "  a"
+                       : comparison.sources[i] == ForceSource::above_run  ? "  b"
+                                                                          : "";
+    fmt::print("  {:>4}  {:>11.5g}  {:>11.5g}  {:>11.5g}  {:>11.2g}  {:>11.5g}{}\n", point.measured.line,
                point.measured.T * force, point.measured.F0 * force, fit.mu * point.R_tot * force,
-               fit.residuals[i] * force, point.measured.F0 / point.R_tot);
+               fit.residuals[i] * force, point.measured.F0 / point.R_tot, mark);
   }
+  const auto any = [&](ForceSource source) { return std::ranges::count(comparison.sources, source) > 0; };
+  if (any(ForceSource::interpolated))
+    fmt::print("  a: R_tot interpolated between two points of the run; no equilibrium was computed there\n");
+  if (any(ForceSource::above_run))
+    fmt::print(
+        "  b: above the tensions of the run; the equilibrium was computed there, its stability assumed\n");
 }
 
 void print_fit(const FrictionFit& fit, const Comparison& comparison,
@@ -123,15 +146,17 @@ int run_fit(const FitRequest& request) {
     fmt::print(stderr, "windlass: {}:{}: left out: the run has no stable state at T = {:.6g}\n",
                request.csv.string(), point.line, point.T);
   const FrictionFit fit = measurement::fit_friction(comparison.used, weights_of(request.weights));
+  // The numbers first: they are not lost where the pictures cannot be written.
+  if (request.common.json)
+    fmt::print("{}\n", to_json(fit, comparison).dump(2));
+  else if (!request.common.quiet)
+    print_fit(fit, comparison, scene.units);
+  std::fflush(stdout);
   const std::filesystem::path folder = request.common.out.empty() ? request.run / "fit" : request.common.out;
   const auto pictures = measurement::draw_fit(run, fit, comparison.used, comparison.below, scene.units,
                                               folder, request.formats);
-  if (request.common.json)
-    fmt::print("{}\n", to_json(fit, comparison).dump(2));
-  else if (!request.common.quiet) {
-    print_fit(fit, comparison, scene.units);
+  if (!request.common.json && !request.common.quiet)
     for (const auto& picture : pictures) fmt::print("{}\n", picture.string());
-  }
   return done;
 }
 
