@@ -14,14 +14,6 @@ namespace windlass::figures {
 namespace capstan = rod::capstan;
 using Verdict = Statement::Verdict;
 
-std::string item(const std::string& run, int block, int column, const std::string& style) {
-  return fmt::format("'{}.dat' index {} using 1:{} with lines {}", run, block, column, style);
-}
-
-std::string panel_letter(char letter, const std::string& title) {
-  return fmt::format("  set label 50 '({}) {}' at graph 0, graph 1.05 left font ',10'\n", letter, title);
-}
-
 namespace {
 
 /// Largest relative difference of computed flat states with a line contact from the closed form.
@@ -55,10 +47,9 @@ std::string limits(const Study& study) {
 std::string panel(bool slopes) {
   const int column = slopes ? 4 : 2;
   std::string text =
-      slopes ? "  set yrange [0.95:4]\n  unset log y\n  set ylabel 'α = dlog R_{tot} / dlog T' offset 1,0\n"
+      slopes ? "  unset log y\n  set yrange [0.9:6]\n  set ylabel 'α = dlog R_{tot} / dlog T' offset -0.3,0\n"
                "  unset key\n"
-             : "  set yrange [0.2:700]\n  set log y\n  set ylabel 'R_{tot}  [EI/ρ²]' offset 1.5,0\n"
-               "  set key bottom right reverse Left samplen 2.5\n";
+             : force_axis(0.2, 700, "R_{tot}  [EI/ρ²]") + "  set key bottom right reverse Left samplen 2.5\n";
   text += panel_letter(slopes ? 'b' : 'a', slopes ? "its slope in logarithms" : "total contact force");
   text += "  plot ";
   if (slopes)
@@ -133,9 +124,7 @@ std::vector<Statement> statements(const Study& study) {
 Figure contact_force(const Study& study, const Canvas& canvas) {
   output::replace_file(canvas.folder / "contact-force-limits.dat", std::string_view(limits(study)));
   output::Picture picture{"contact-force", 9.0, 4.2, opening};
-  picture.body +=
-      "  set log x\n  set xrange [0.2:40]\n  set format x '%g'\n  set format y '%g'\n"
-      "  set xlabel 'tension T  [EI/ρ²]'\n";
+  picture.body += tension_axis(0.2, 40);
   picture.body += output::margins(0.075, 0.485, 0.15, 0.9) + panel(false);
   picture.body += output::margins(0.575, 0.985, 0.15, 0.9) + panel(true) + "  unset multiplot\n";
   output::run_gnuplot(picture, canvas.folder, canvas.formats);

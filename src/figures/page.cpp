@@ -87,7 +87,8 @@ std::filesystem::path write_page(const std::vector<Figure>& figures, const Study
 std::vector<Figure> draw_all(const Study& study, const Canvas& canvas) {
   for (const auto& [name, run] : study) write_run_data(name, run, canvas);
   std::vector<Figure> figures;
-  for (const auto& draw : {contact_force, strength, collapse, pressure, wrapping_angle, surgical_knot})
+  for (const auto& draw :
+       {contact_force, strength, collapse, pressure, pressure_map, wrapping_angle, surgical_knot})
     figures.push_back(draw(study, canvas));
   return figures;
 }

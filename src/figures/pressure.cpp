@@ -2,99 +2,48 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
+#include "contact_cell.hpp"
 #include "style.hpp"
-#include "windlass/output/atomic_file.hpp"
 #include "windlass/output/gnuplot.hpp"
-#include "windlass/output/rod_curve.hpp"
-#include "windlass/output/stable_state.hpp"
 #include "windlass/rod/capstan.hpp"
 
 namespace windlass::figures {
 
 namespace capstan = rod::capstan;
-using equilibrium::Solution;
 using Verdict = Statement::Verdict;
 
 namespace {
 
-constexpr double tensions[] = {0.3, 0.9, 7.0};
-constexpr const char* columns[] = {"pi", "2pi"};
-
-struct Cell {
-  std::string stem;
-  Solution state;
-  double highest_pressure = 0.0, highest_force = 0.0;
-};
-
-/// Place round the axis, 0 at the south pole, in units of π; a contact of less than a turn needs no unrolling.
-double place(const Eigen::Vector3d& r) { return std::atan2(r.x(), -r.y()) / M_PI; }
-
-Cell make_cell(const StudyRun& study, const std::string& stem, double tension, const Canvas& canvas) {
-  const auto state = output::stable_state(study.run, study.scene, tension);
-  if (!state) throw std::runtime_error(stem + ": no stable state at T = " + std::to_string(tension));
-  Cell cell{stem, *state, 0.0, 0.0};
-  const output::RodCurve curve = output::dense_curve(*state);
-  std::string pressed = "# place/pi | p | z; one block a line contact\n? ? ?\n",
-              forces = "# place/pi | f | z\n? ? ?\n";
-  for (std::size_t i = 0; i < curve.s.size(); ++i) {
-    if (state->arcs[curve.arc[i]].kind != equilibrium::ArcKind::line) continue;
-    if (i > 0 && curve.arc[i] != curve.arc[i - 1]) pressed += "\n";
-    pressed += fmt::format("{} {} {}\n", place(curve.r[i]), curve.p[i], curve.r[i].z());
-    cell.highest_pressure = std::max(cell.highest_pressure, curve.p[i]);
-  }
-  for (const auto& force : output::point_forces(*state)) {
-    forces += fmt::format("{} {} {}\n", place(force.r), force.size, force.r.z());
-    cell.highest_force = std::max(cell.highest_force, force.size);
-  }
-  output::replace_file(canvas.folder / (stem + ".dat"), std::string_view(pressed + "\n\n" + forces));
-  return cell;
-}
-
-std::string heading(const Cell& cell) {
-  constexpr double degrees = 180.0 / M_PI, flat = 1e-7;
-  std::string words = cell.state.topology;
-  words += cell.state.z_span > flat ? fmt::format(",  helical, tilt {:.0f}°", cell.state.tilt * degrees)
-                                    : ",  flat";
-  return fmt::format("  set label 51 '{}' at graph 0.5, graph 1.06 center font ',9'\n", words);
-}
-
-std::string panel(const Cell& cell, int row, int column) {
-  const double left = column == 0 ? 0.08 : 0.56, top = 0.93 - 0.297 * row;
-  const Solution& state = cell.state;
-  std::string text = output::margins(left, left + 0.35, top - 0.215, top) + heading(cell);
+std::string panel(const ContactCell& cell, int row, int column) {
+  const double left = column == 0 ? 0.08 : 0.56, top = 0.93 - 0.31 * row;
+  const equilibrium::Solution& state = cell.state;
+  std::string text = output::margins(left, left + 0.35, top - 0.225, top) + contact_heading(cell);
   text += fmt::format("  set label 52 'T = {:g}' at graph 0.03, graph 0.88 left font ',10'\n", state.T);
   text += fmt::format("  set yrange [0:{}]\n  set y2range [0:{}]\n",
                       cell.highest_pressure > 0.0 ? 1.45 * cell.highest_pressure : 1.0,
                       cell.highest_force > 0.0 ? 1.45 * cell.highest_force : 1.0);
   text += column == 0 ? "  set ylabel 'p  [EI/ρ³]' offset 1,0\n  unset y2label\n"
                       : "  unset ylabel\n  set y2label 'f  [EI/ρ²]' offset -1,0 tc rgb '#c00000'\n";
-  text += row == 2 ? "  set xlabel 'place round the axis / π'\n" : "  unset xlabel\n";
+  text += row == 2 ? "  set xlabel 'place round the axis θ / π'\n" : "  unset xlabel\n";
   if (cell.highest_pressure > 0.0)
     text += "  set ytics auto nomirror font ',9'\n";
   else
     text += "  unset ytics\n";
-  if (capstan::line_contact(state.T, state.phi)) {
-    const double reach = capstan::phi_star(state.T, state.phi) / M_PI;
-    text += fmt::format(
-        "  set object 1 rectangle from first {}, graph 0 to first {}, graph 1 fc rgb '#e4e4e4' fs noborder "
-        "behind\n",
-        -reach, reach);
-  }
+  text += flat_contact_band(state);
   text += fmt::format(
       "  plot '{0}.dat' index 0 using 1:2 with filledcurves y1=0 lc rgb '#f3c6a5', \\\n"
       "    '{0}.dat' index 0 using 1:2 with lines lw 1.8 lc rgb '#bc3754', \\\n"
       "    '{0}.dat' index 1 using 1:2 axes x1y2 with impulses lw 2.5 lc rgb '#c00000', \\\n"
-      "    '{0}.dat' index 1 using 1:2 axes x1y2 with points pt 9 ps 0.8 lc rgb '#c00000'\n"
-      "  unset object 1\n",
+      "    '{0}.dat' index 1 using 1:2 axes x1y2 with points pt 9 ps 0.8 lc rgb '#c00000'\n",
       cell.stem);
-  return text;
+  return text + "  unset label 60\n  unset label 61\n";
 }
 
-std::vector<Statement> statements(const std::vector<Cell>& cells) {
-  const Cell &loose_pi = cells[0], &loose_turn = cells[1], &middle_turn = cells[3], &tight_turn = cells[5];
-  const auto joint_force = [](const Cell& cell) {
+std::vector<Statement> statements(const std::vector<ContactCell>& cells) {
+  const ContactCell &loose_pi = cells[0], &loose_turn = cells[1], &middle_turn = cells[3],
+                    &tight_turn = cells[5];
+  const auto joint_force = [](const ContactCell& cell) {
     return cell.highest_force / std::max(cell.highest_pressure, 1e-300);
   };
   return {
@@ -127,17 +76,10 @@ Figure pressure(const Study& study, const Canvas& canvas) {
   picture.body +=
       "  unset key\n  set border 11\n  set xrange [-1:1]\n  set xtics 0.5 nomirror\n  set ytics nomirror\n"
       "  set y2tics font ',9'\n";
-  for (int column = 0; column < 2; ++column)
-    picture.body += fmt::format("  set label {} 'φ = {}' at screen {}, screen 0.978 center font ',11'\n",
-                                60 + column, column == 0 ? "π" : "2π", column == 0 ? 0.255 : 0.735);
-  std::vector<Cell> cells;
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 2; ++column) {
-      cells.push_back(make_cell(study.at(columns[column]),
-                                fmt::format("pressure-{}-{}", columns[column], tensions[row]), tensions[row],
-                                canvas));
-      picture.body += panel(cells.back(), row, column);
-    }
+  picture.body += column_titles(0.255, 0.735);
+  const std::vector<ContactCell> cells = contact_cells(study, canvas);
+  for (std::size_t k = 0; k < cells.size(); ++k)
+    picture.body += panel(cells[k], static_cast<int>(k / 2), static_cast<int>(k % 2));
   picture.body += "  unset multiplot\n";
   output::run_gnuplot(picture, canvas.folder, canvas.formats);
   return {

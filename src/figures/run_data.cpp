@@ -28,9 +28,18 @@ std::size_t family(const output::BranchRow& a, const output::BranchRow& b) {
   return (b.topology.find("line") != std::string::npos ? 0 : 2) + unstable;
 }
 
-std::string line(const output::BranchRow& row, double alpha) {
-  return fmt::format("{} {} {} {} {}\n", row.T, row.R_tot, row.phi_star / M_PI,
-                     std::isfinite(alpha) ? output::format_number(alpha) : "?", row.R_tot / row.phi);
+std::string known(double value) { return std::isfinite(value) ? output::format_number(value) : "?"; }
+
+std::string line(const output::BranchRow& row, double phi_star, double alpha) {
+  return fmt::format("{} {} {} {} {}\n", row.T, row.R_tot, known(phi_star / M_PI), known(alpha),
+                     row.R_tot / row.phi);
+}
+
+/// phi_star of the first of two rows as the place to draw from: none where the outermost contact is another beyond an
+/// event, so that phi_star jumps.
+double phi_star_from(const output::BranchRow& first, const output::BranchRow& second) {
+  constexpr double jump = 0.3;  // [rad]; steps along branches are below 0.1
+  return std::abs(second.phi_star - first.phi_star) > jump ? std::nan("") : first.phi_star;
 }
 
 }  // namespace
@@ -49,8 +58,11 @@ void write_run_data(const std::string& name, const StudyRun& study, const Canvas
       std::string& block = blocks[static_cast<std::size_t>(now)];
       // An event has the topology before it, and so its log slope: none from there on.
       const bool changed = branch[i - 1].topology != branch[i].topology;
-      if (now != drawn || changed) block += "\n" + line(branch[i - 1], changed ? std::nan("") : alpha[i - 1]);
-      block += line(branch[i], alpha[i]);
+      if (now != drawn || changed)
+        block += "\n" + line(branch[i - 1],
+                             changed ? phi_star_from(branch[i - 1], branch[i]) : branch[i - 1].phi_star,
+                             changed ? std::nan("") : alpha[i - 1]);
+      block += line(branch[i], branch[i].phi_star, alpha[i]);
       drawn = now;
     }
   }

@@ -5,6 +5,7 @@
 
 #include "style.hpp"
 #include "windlass/output/gnuplot.hpp"
+#include "windlass/output/stable_state.hpp"
 #include "windlass/rod/capstan.hpp"
 
 namespace windlass::figures {
@@ -47,8 +48,7 @@ std::string panel(const Study& study, const Angle& angle, std::size_t k) {
   std::string text = output::margins(left, left + 0.265, bottom, bottom + 0.35);
   text += panel_letter(static_cast<char>('a' + k), fmt::format("φ = {}", angle.title));
   const double high = 1.6 * capstan::total_force(20.0, run.phi());
-  text += fmt::format("  set yrange [{}:{}]\n", std::max(0.03, high * 4e-4), high);
-  text += k % 3 == 0 ? "  set ylabel 'F_0/μ  [EI/ρ²]' offset 1.5,0\n" : "  unset ylabel\n";
+  text += force_axis(std::max(0.03, high * 4e-4), high, k % 3 == 0 ? "F_0/μ  [EI/ρ²]" : "");
   text += "  plot " + curves(run, angle.run, false);
   if (k == 1) text += ", \\\n    " + item("2pi-clamped", 4, 2, "lw 1.5 dt (3,6) lc rgb 'black' notitle");
   return text + "\n";
@@ -61,6 +61,27 @@ std::string legend(const Study& study) {
          "plot " +
          curves(study.at("4pi"), "4pi", true) +
          ", \\\n    1e-9 with lines lw 1.5 dt (3,6) lc rgb 'black' title 'helical, ends clamped (b)'\n";
+}
+
+/// Stable states at tensions where one that reaches higher tensions is stable too.
+void add_further_states(std::vector<Statement>& list, const StudyRun& study, const char* name) {
+  const auto stretches = output::stable_stretches(study.run);
+  for (std::size_t k = 1; k < stretches.size(); ++k) {
+    const auto& inner = stretches[k];
+    const bool further = std::any_of(stretches.begin(), stretches.begin() + static_cast<std::ptrdiff_t>(k),
+                                     [&](const auto& outer) { return outer.lowest < inner.lowest; });
+    if (!further) continue;
+    const auto& row = study.run.rows[(inner.first + inner.last) / 2];
+    list.push_back(
+        {"—",
+         fmt::format("{}: between T = {:.4f} and {:.4f} a second state is stable ({}; R_tot = {:.3f} at T "
+                     "= {:.3f}, the first has {:.3f})",
+                     name, inner.lowest, inner.highest, row.topology, row.R_tot, row.T,
+                     study.stable_force(row.T)),
+         Verdict::remark,
+         "which of the two a rod is in depends on its history; numbers here are those of the first, "
+         "which a coil slackened from high tension is in"});
+  }
 }
 
 std::vector<Statement> statements(const Study& study) {
@@ -99,12 +120,14 @@ std::vector<Statement> statements(const Study& study) {
            "the stable helix carries more than the flat coil: {:.3f} against {:.3f} at T = 0.6 for 2π", helix,
            flat),
        Verdict::differs, "as above: the flat coil at that tension needs something that holds it flat"});
-  for (const char* run : {"4pi"})
+  for (const char* run : {"2pi", "4pi"}) {
+    add_further_states(list, study.at(run), run);
     for (const auto& lost : study.at(run).run.info.lost_branches)
       list.push_back({"—",
                       fmt::format("on {} a branch could not be followed beyond T = {:.3f} ({})", run, lost.T,
                                   lost.reason),
                       Verdict::remark, "a limit of this program; the branch is an unstable one"});
+  }
   list.push_back({"the sliding strength does not depend on R/r (1, 2.5, 5)",
                   "true by construction: only ρ = R + r enters", Verdict::agrees, ""});
   return list;
@@ -114,10 +137,7 @@ std::vector<Statement> statements(const Study& study) {
 
 Figure strength(const Study& study, const Canvas& canvas) {
   output::Picture picture{"strength", 10.0, 6.6, opening};
-  picture.body += closed_form;
-  picture.body +=
-      "  set log xy\n  set xrange [0.1:20]\n  set format x '%g'\n  set format y '%g'\n"
-      "  set xlabel 'tension T  [EI/ρ²]' offset 0,0.4\n  unset key\n";
+  picture.body += closed_form + tension_axis(0.1, 20) + "  unset key\n";
   for (std::size_t k = 0; k < std::size(angles); ++k) picture.body += panel(study, angles[k], k);
   picture.body += legend(study) + "  unset multiplot\n";
   output::run_gnuplot(picture, canvas.folder, canvas.formats);
@@ -133,12 +153,8 @@ Figure strength(const Study& study, const Canvas& canvas) {
 
 Figure collapse(const Study& study, const Canvas& canvas) {
   output::Picture picture{"collapse", 9.0, 4.2, opening};
-  picture.body += closed_form;
-  picture.body +=
-      "  set log xy\n  set xrange [0.1:40]\n  set yrange [0.04:60]\n  set format x '%g'\n  set format y "
-      "'%g'\n"
-      "  set xlabel 'tension T  [EI/ρ²]'\n  set ylabel 'F_0/(μ φ)  [EI/ρ²]' offset 1.5,0\n"
-      "  set key bottom right reverse Left samplen 2.5\n";
+  picture.body += closed_form + tension_axis(0.1, 40) + force_axis(0.04, 60, "F_0/(μ φ)  [EI/ρ²]") +
+                  "  set key bottom right reverse Left samplen 2.5\n";
   std::string analytical, computed, separator;
   for (const Angle& angle : angles) {
     const std::string style = fmt::format("lw 2 lc rgb '{}' ", angle.colour);
@@ -168,7 +184,9 @@ Figure collapse(const Study& study, const Canvas& canvas) {
   }
   return {"collapse",
           "Collapse of the sliding strength (the paper's F0/φ)",
-          "F0/(μ φ) against T; the dashed line is the limit of high tension.",
+          "F0/(μ φ) against T; the dashed line is the limit of high tension. In (b) the short piece apart "
+          "from the others, "
+          "if any, is a second stable state of 4π.",
           {"4pi", "2pi", "pi", "half-pi", "quarter-pi"},
           {{"at high tension all curves collapse onto R_tot = φ T", "R_tot/(φ T) at T = 10: " + at_ten,
             Verdict::agrees, ""},

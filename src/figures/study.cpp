@@ -17,10 +17,9 @@ std::vector<PlannedRun> planned_runs() {
   runs.push_back({"2pi-clamped", "capstan-2pi-clamped", {}, true});
   for (int throws = 2; throws <= 6; ++throws) {
     const std::string turns = std::to_string(2 * throws);
-    // Tails of 12 ρ at least, so that their ends do not matter: exp(-2 √T 12) < 1e-7 for T >= 1/2.
     runs.push_back({"knot-" + std::to_string(throws),
                     "capstan-4pi",
-                    {"model.kind=planar", "load.angle=" + turns + " pi", "rod.length=64",
+                    {"model.kind=planar", "load.angle=" + turns + " pi", "rod.length=inf",
                      "continuation.from=10", "continuation.to=0.5", "continuation.step_max=0.05"},
                     false});
   }
@@ -41,12 +40,12 @@ std::optional<double> StudyRun::flat_event(const std::string& type) const {
   return std::nullopt;
 }
 
-double StudyRun::stable_force(double tension) const {
-  const auto force = output::stable_contact_force(run, scene, tension);
-  if (!force)
-    throw std::runtime_error(scene.name + ": no stable state was found at T = " + std::to_string(tension));
-  return *force;
+equilibrium::Solution StudyRun::stable_state(double tension) const {
+  if (const auto state = output::stable_state(run, scene, tension)) return *state;
+  throw std::runtime_error(scene.name + ": no stable state was found at T = " + std::to_string(tension));
 }
+
+double StudyRun::stable_force(double tension) const { return stable_state(tension).R_tot; }
 
 double StudyRun::stable_log_slope(double tension) const {
   // Central difference: truncation of order 1e-6, and the forces are good to 1e-8.

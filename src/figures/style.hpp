@@ -34,6 +34,16 @@ inline constexpr const char* opening =
     "  set datafile missing '?'\n  set samples 600\n  set multiplot\n  set tics font ',9'\n"
     "  set grid lc rgb '#dddddd'\n  set key font ',9'\n";
 
+/// The axis of tension, in logarithms.
+std::string tension_axis(double low, double high);
+
+/// Logarithmic axis of a force along the left side; `title` is what is measured, with its unit.
+std::string force_axis(double low, double high, const std::string& title);
+
+/// A vertical line at T = 1/2, where the line contact of a flat coil ends; `unset arrow 1` takes it away.
+inline constexpr const char* contact_limit =
+    "  set arrow 1 from 0.5, graph 0 to 0.5, graph 1 nohead lw 2 lc rgb '#b0b0b0' back\n";
+
 /// A block of NAME.dat as an item of a plot command.
 std::string item(const std::string& run, int block, int column, const std::string& style);
 

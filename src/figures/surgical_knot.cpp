@@ -79,13 +79,9 @@ std::vector<Statement> statements(const Study& study) {
 
 Figure surgical_knot(const Study& study, const Canvas& canvas) {
   output::Picture picture{"surgical-knot", 7.0, 5.4, opening};
-  picture.body += closed_form;
   picture.body +=
-      "  set log xy\n  set xrange [0.4:10]\n  set yrange [0.9:600]\n  set format x '%g'\n  set format y "
-      "'%g'\n"
-      "  set xlabel 'tension T  [EI/ρ²]'\n  set ylabel 'R_{tot}  [EI/ρ²]'\n"
-      "  set key top left reverse Left samplen 2.5\n"
-      "  set arrow 1 from 0.5, graph 0 to 0.5, graph 1 nohead lw 2 lc rgb '#b0b0b0' back\n";
+      closed_form + tension_axis(0.4, 10) + force_axis(0.9, 600, "R_{tot}  [EI/ρ²]") + contact_limit;
+  picture.body += "  set key at graph 0.09, graph 0.97 left top reverse Left samplen 2.5\n";
   picture.body += output::margins(0.11, 0.97, 0.12, 0.96) + "  plot ";
   std::vector<std::string> runs{"2pi"};
   for (int n = 6; n >= 2; --n) {

@@ -1,32 +1,21 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <stdexcept>
 
 #include "style.hpp"
 #include "windlass/output/gnuplot.hpp"
-#include "windlass/output/stable_state.hpp"
 #include "windlass/rod/capstan.hpp"
 
 namespace windlass::figures {
 
 namespace capstan = rod::capstan;
-using equilibrium::Solution;
 using Verdict = Statement::Verdict;
 
 namespace {
 
-Solution state_at(const StudyRun& study, double tension) {
-  const auto state = output::stable_state(study.run, study.scene, tension);
-  if (!state)
-    throw std::runtime_error(study.scene.name +
-                             ": no stable state was found at T = " + std::to_string(tension));
-  return *state;
-}
-
 /// 2 phi_star/π of the stable state.
 double wrapping(const StudyRun& study, double tension) {
-  return 2.0 * state_at(study, tension).phi_star / M_PI;
+  return 2.0 * study.stable_state(tension).phi_star / M_PI;
 }
 
 }  // namespace
@@ -34,12 +23,10 @@ double wrapping(const StudyRun& study, double tension) {
 Figure wrapping_angle(const Study& study, const Canvas& canvas) {
   const StudyRun& run = study.at("4pi");
   output::Picture picture{"wrapping-angle", 6.4, 4.4, opening};
-  picture.body += closed_form;
+  picture.body += closed_form + tension_axis(0.1, 40) + contact_limit;
   picture.body +=
-      "  set log x\n  set xrange [0.1:40]\n  set yrange [2.9:4.05]\n  set format x '%g'\n"
-      "  set xlabel 'tension T  [EI/ρ²]'\n  set ylabel 'wrapping angle 2φ^* / π'\n"
-      "  set key bottom right reverse Left samplen 3\n"
-      "  set arrow 1 from 0.5, graph 0 to 0.5, graph 1 nohead lw 2 lc rgb '#b0b0b0' back\n";
+      "  set yrange [2.9:4.05]\n  set ylabel 'wrapping angle 2φ^* / π'\n"
+      "  set key bottom right reverse Left samplen 3\n";
   picture.body += output::margins(0.12, 0.96, 0.14, 0.95);
   const std::string flat = fmt::format("lc rgb '{}' ", flat_colour),
                     helical = fmt::format("lc rgb '{}' ", helical_colour);
@@ -69,7 +56,7 @@ Figure wrapping_angle(const Study& study, const Canvas& canvas) {
                         run.flat_event("branch_point").value_or(0.0))},
            {"below T = 0.5 the wrapping angle decreases sharply, towards discrete point contacts",
             fmt::format("the helix keeps 2φ* = {:.4f} π at T = 0.4 and {:.4f} π at T = 0.15 (contact: {})",
-                        wrapping(run, 0.4), wrapping(run, 0.15), state_at(run, 0.15).topology),
+                        wrapping(run, 0.4), wrapping(run, 0.15), run.stable_state(0.15).topology),
             Verdict::differs,
             "outermost contacts are counted here, and they stay; what shrinks is the line contact between "
             "them. The "

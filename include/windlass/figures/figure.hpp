@@ -38,6 +38,7 @@ Figure contact_force(const Study& study, const Canvas& canvas);   ///< R_tot(T) 
 Figure strength(const Study& study, const Canvas& canvas);        ///< F0/mu at each angle
 Figure collapse(const Study& study, const Canvas& canvas);        ///< F0/(mu phi)
 Figure pressure(const Study& study, const Canvas& canvas);        ///< along the contact, phi = π and 2π
+Figure pressure_map(const Study& study, const Canvas& canvas);    ///< the same on the unrolled cylinder
 Figure wrapping_angle(const Study& study, const Canvas& canvas);  ///< 2 phi_star at 4π
 Figure surgical_knot(const Study& study, const Canvas& canvas);   ///< n loops against one coil
 

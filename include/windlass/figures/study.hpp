@@ -34,7 +34,10 @@ struct StudyRun {
   double phi() const { return scene.load.angle; }
   /// Tension of the first special point of that type on the flat branch [EI/ρ²]; nullopt where there is none.
   std::optional<double> flat_event(const std::string& type) const;
-  /// R_tot [EI/ρ²] and dlog R_tot/dlog T of the stable state at a tension, continued there from the stored points.
+  /// The stable state at a tension, continued there from the stored points (output::stable_state).
+  /// @throws std::runtime_error where there is none
+  equilibrium::Solution stable_state(double tension) const;
+  /// R_tot [EI/ρ²] and dlog R_tot/dlog T of that state.
   double stable_force(double tension) const;
   double stable_log_slope(double tension) const;
 };

@@ -1,0 +1,81 @@
+// The paper's figures through the program, as a reader gets them.
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "support/run_program.hpp"
+#include "windlass/rod/capstan.hpp"
+
+using namespace windlass::test;
+namespace capstan = windlass::rod::capstan;
+
+namespace {
+
+/// Rows of one block of a data file for gnuplot, those of missing values left out.
+std::vector<std::vector<double>> block(const std::filesystem::path& path, int wanted) {
+  std::istringstream text(slurp(path));
+  std::vector<std::vector<double>> rows;
+  int current = -1;
+  for (std::string line; std::getline(text, line);) {
+    if (line.starts_with("# block ")) current = std::stoi(line.substr(8));
+    if (line.empty() || line.front() == '#' || line.front() == '?' || current != wanted) continue;
+    std::istringstream numbers(line);
+    rows.push_back({std::istream_iterator<double>(numbers), {}});
+  }
+  return rows;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(figures)
+
+BOOST_AUTO_TEST_CASE(every_figure_is_made_with_data_script_and_statements) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      run_program({"figures", "--out", "figs", "--format", "svg", "--json"}, folder.path());
+  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  const auto figs = folder.path() / "figs";
+  const std::string page = slurp(figs / "index.html");
+  const auto summary = nlohmann::json::parse(outcome.out);
+  BOOST_TEST(summary["figures"].size() == 7u);
+  for (const std::string stem : summary["figures"]) {
+    BOOST_TEST(slurp(figs / (stem + ".svg")).starts_with("<?xml"), stem);
+    BOOST_TEST(std::filesystem::exists(figs / (stem + ".gp")), stem);
+    BOOST_TEST(contains(page, "<img src=\"" + stem + ".svg\""), stem);
+  }
+  BOOST_TEST(contains(page, "class=\"agrees\""));
+  BOOST_TEST(contains(page, "class=\"differs\""));
+  BOOST_TEST(!contains(page, "nan"));
+
+  const auto flat = block(figs / "2pi.dat", 0), helical = block(figs / "2pi.dat", 4);
+  BOOST_REQUIRE(flat.size() > 5u);
+  for (const auto& row :
+       flat)  // tails of 12 ρ at T >= 1.28: exp(-2 √T 12) is below the run's tolerance of 1e-8
+    BOOST_TEST(std::abs(row[1] / capstan::total_force(row[0], 2.0 * M_PI) - 1.0) < 1e-7);
+  BOOST_REQUIRE(helical.size() > 5u);
+  for (const auto& row : helical)
+    BOOST_TEST(row[0] < 1.2860);                  // only below the loss of stability of the flat coil
+  BOOST_TEST(block(figs / "pi.dat", 1).empty());  // a half turn is never unstable
+  BOOST_TEST(block(figs / "pi.dat", 4).empty());
+
+  std::istringstream limits(slurp(figs / "contact-force-limits.dat"));
+  std::string heading;
+  std::getline(limits, heading);
+  for (const double phi : {4.0, 2.0, 1.0, 0.5, 0.25}) {
+    std::string line;
+    BOOST_REQUIRE(std::getline(limits, line));
+    // Finite tails move the limit by exp(-2 √T L_tail), most for π: L_tail = 13, 1e-8.
+    BOOST_TEST(std::abs(std::stod(line) / capstan::line_limit(phi * M_PI) - 1.0) < 1e-6, line);
+  }
+  BOOST_TEST(run_program({"figures", "--out", "figs"}, folder.path()).status == 1);  // not empty
+}
+
+BOOST_AUTO_TEST_SUITE_END()
