@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <set>
 
 #include "app/reference.hpp"
 #include "windlass/scene/keys.hpp"
@@ -55,6 +56,16 @@ std::string choice_cases(const CLI::App& app) {
   return text;
 }
 
+/// Options without a value, of any command.
+std::string flags(const CLI::App& app) {
+  std::set<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({}))
+    for (const CLI::Option* option : command->get_options())
+      if (!option->get_positional() && option->get_items_expected_max() == 0)
+        for (const std::string& name : option->get_lnames()) names.insert("--" + name);
+  return fmt::format("{}", fmt::join(names, " "));
+}
+
 constexpr const char* script = R"bash(# bash completion for windlass, made by `windlass completion`
 _windlass() {{
   local word=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD - 1]}} command=${{COMP_WORDS[1]}}
@@ -75,7 +86,8 @@ _windlass() {{
     return
   fi
   for ((i = 2; i < COMP_CWORD; ++i)); do
-    [[ ${{COMP_WORDS[i]}} == -* || ${{COMP_WORDS[i - 1]}} == -* ]] && continue
+    [[ ${{COMP_WORDS[i]}} == -* ]] && continue
+    [[ ${{COMP_WORDS[i - 1]}} == -* && ' {flags} ' != *" ${{COMP_WORDS[i - 1]}} "* ]] && continue
     ((place == 0)) && run=${{COMP_WORDS[i]}}
     ((++place))
   done
@@ -102,7 +114,7 @@ std::string bash_completion(const CLI::App& app) {
     if (key.table() != "scale") keys.emplace_back(key.name);
   return fmt::format(fmt::runtime(script), fmt::arg("commands", joined(commands)),
                      fmt::arg("choices", choice_cases(app)), fmt::arg("keys", joined(keys)),
-                     fmt::arg("cases", cases));
+                     fmt::arg("cases", cases), fmt::arg("flags", flags(app)));
 }
 
 }  // namespace windlass::app

@@ -20,7 +20,7 @@ void add_branch_command(CLI::App& command, CommonOptions& common, int& status,
   command.add_option("SCENE", words->start, "scene file (TOML), or a run folder to restart from")
       ->required()
       ->type_name("");
-  command.add_option("LABEL", words->label, "with a run folder: the stored point, e.g. BP1")->type_name("");
+  command.add_option("LABEL", words->label, "with a run folder: the stored point, e.g. B1")->type_name("");
   add_common_options(command, common);
   CLI::Option* resume = command.add_flag("--resume", words->resume, "go on with the run in the folder --out");
   command.get_option("--force")->excludes(resume);

@@ -5,6 +5,7 @@
 
 #include "app/branch_recorder.hpp"
 #include "app/branch_setup.hpp"
+#include "app/interrupt.hpp"
 #include "windlass/equilibrium/codec.hpp"
 #include "windlass/output/error.hpp"
 #include "windlass/petsc/session.hpp"
@@ -110,6 +111,7 @@ continuation::DiagramState restored(const output::Checkpoint& checkpoint, const 
 int run_branches(const BranchRequest& request, const std::string& command,
                  const continuation::DiagramOptions& limits) {
   petsc::ensure_session();
+  const DeferredInterrupts deferred;
   const BranchSetup setup = set_up_branch(request);
   const fs::path folder = output_folder(request.common, request.scene);
   output::WriterOptions options = writer_options(request, command, setup.key);

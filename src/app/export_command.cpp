@@ -1,7 +1,4 @@
-#include <CLI/CLI.hpp>
-#include <memory>
-
-#include "app/commands.hpp"
+#include "app/run_command.hpp"
 
 namespace windlass::app {
 
@@ -15,18 +12,12 @@ void add_export(CLI::App& app, CommonOptions& common, int& status) {
       "EI/rho^2. A branch is a sequence in ParaView's time; rod_radius is in the field data for the Tube "
       "filter.\n"
       "Files go into RUN/vtk unless --out says otherwise.");
-  const auto request = std::make_shared<RunRequest>();
-  command->add_option("RUN", request->run, "run folder")->required()->type_name("");
+  const auto request = add_run(*command, common, status, run_export);
   command
       ->add_option("POINT", request->label,
                    "a stored point, e.g. B1 or 2-17, or the number of a branch (default: every branch)")
       ->type_name("");
   add_common_options(*command, common);
-  command->callback([request, &common, &status] {
-    request->common = common;
-    scene_of_run(request->run, common);  // tells a folder that is no run from one that is
-    status = run_export(*request);
-  });
 }
 
 }  // namespace windlass::app

@@ -1,7 +1,4 @@
-#include <CLI/CLI.hpp>
-#include <memory>
-
-#include "app/commands.hpp"
+#include "app/run_command.hpp"
 
 namespace windlass::app {
 
@@ -12,6 +9,7 @@ void add_fit(CLI::App& app, CommonOptions& common, int& status) {
       "  T [g], F0 [N], F0_error [N]\n"
       "  200, 1.93, 0.05\n"
       "Any force or hung mass will do; without units the columns are dimensionless, in EI/rho^2.\n"
+      "RUN is a branch or diagram in load.tension. "
       "The least squares fit of F0 = mu R_tot(T) takes R_tot of the run's stable state at each measured T. "
       "The\n"
       "weights are 1/F0_error^2 where the file gives errors. Otherwise every F0 has the same error, so that "
@@ -20,10 +18,7 @@ void add_fit(CLI::App& app, CommonOptions& common, int& status) {
       "the "
       "same.\n"
       "Pictures go into RUN/fit unless --out says otherwise.");
-  const auto request = std::make_shared<FitRequest>();
-  command->add_option("RUN", request->run, "run folder of a branch or diagram in load.tension")
-      ->required()
-      ->type_name("");
+  const auto request = add_run(*command, common, status, run_fit);
   command->add_option("--csv", request->csv, "measured points")->required()->type_name("DATA");
   command->add_option("--weights", request->weights, "automatic, absolute or relative")
       ->check(CLI::IsMember({"automatic", "absolute", "relative"}))
@@ -32,11 +27,6 @@ void add_fit(CLI::App& app, CommonOptions& common, int& status) {
       ->type_name("T");
   add_format_option(*command, request->formats);
   add_common_options(*command, common);
-  command->callback([request, &common, &status] {
-    request->common = common;
-    scene_of_run(request->run, common);  // tells a folder that is no run from one that is
-    status = run_fit(*request);
-  });
 }
 
 }  // namespace windlass::app

@@ -14,7 +14,7 @@ void add_locus(CLI::App& app, CommonOptions& common, int& status) {
       "  windlass locus runs/capstan-2pi F1 --in load.angle --to 6.6");
   const auto request = std::make_shared<LocusRequest>();
   command->add_option("RUN", request->run, "run folder")->required()->type_name("");
-  command->add_option("LABEL", request->label, "a special point of the run, e.g. BP1")
+  command->add_option("LABEL", request->label, "a special point of the run, e.g. B1")
       ->required()
       ->type_name("");
   command->add_option("--in", request->second, "the second parameter, a numeric scene key")

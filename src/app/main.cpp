@@ -28,7 +28,7 @@ Any scene key can be set on the command line; `windlass scenes --keys` lists the
 PETSc and SLEPc, e.g. `windlass solve SCENE -- -snes_monitor`.
 
 Exit status: 0 done; 1 bad input; 2 the solver could not finish (what it had is on disk); 3 a certificate
-failed; 130 stopped by Ctrl-C after the current point.)";
+failed; 130 stopped by Ctrl-C, runs after the current point and saved.)";
 
 /// Splits the command line at the first `--`: ours before it, PETSc's after it.
 std::vector<std::string> take_petsc_options(std::vector<std::string>& arguments) {
@@ -104,6 +104,8 @@ int main(int argc, char** argv) {
     return run({argv + 1, argv + argc});
   } catch (const InputError& error) {
     return complain(error.what(), bad_input);
+  } catch (const output::DeviceError& error) {
+    return complain(error.what(), not_finished);
   } catch (const output::OutputError& error) {  // a run folder that cannot be read or written
     return complain(error.what(), bad_input);
   } catch (const std::filesystem::filesystem_error& error) {  // a folder that may not be entered

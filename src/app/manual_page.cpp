@@ -43,6 +43,7 @@ std::string prose(const std::string& text) {
 
 std::string option_entry(const CLI::Option& option) {
   std::string name = option.get_positional() ? option.get_name(true) : option.get_name(false, true);
+  name = name.substr(0, name.find('{'));  // CLI11 marks a flag that sets false
   std::string entry = ".TP\n\\fB" + roff(name) + "\\fR";
   const std::string type = option.get_type_name();
   if (!option.get_positional() && option.get_items_expected_max() > 0 && !type.empty())
@@ -85,6 +86,23 @@ std::string scene_keys() {
   return text;
 }
 
+std::string run_folder() {
+  const std::pair<const char*, const char*> files[] = {
+      {"scene.toml", "the scene as resolved, with everything that was set on the command line"},
+      {"run.json", "version, options, machine, summary, lost branches, times"},
+      {"branches.csv", "a row a point; written as points are found"},
+      {"special_points.json", "folds, branch points and changes of contact, with their precision"},
+      {"points.h5", "every solution along the rod, self-describing; what restarts and reports are made from"},
+      {"checkpoint.cbor", "what --resume goes on from; gone once the run has come to its end"}};
+  std::string text =
+      ".SH RUN FOLDER\nFiles are replaced whole or grow by whole rows, so that the folder is readable at "
+      "every "
+      "moment.\n";
+  for (const auto& [file, meaning] : files)
+    text += ".TP\n\\fB" + roff(file) + "\\fR\n" + roff(meaning) + "\n";
+  return text;
+}
+
 }  // namespace
 
 std::string manual_page(const CLI::App& app) {
@@ -103,7 +121,7 @@ std::string manual_page(const CLI::App& app) {
     if (common.empty()) common = entries(*command, true);
   }
   text += ".SH COMMON OPTIONS\n" + common + entries(app, false);
-  return text + ".SH NOTES\n" + prose(app.get_footer().substr(1)) + scene_keys();
+  return text + ".SH NOTES\n" + prose(app.get_footer().substr(1)) + run_folder() + scene_keys();
 }
 
 }  // namespace windlass::app

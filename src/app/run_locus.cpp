@@ -74,6 +74,7 @@ continuation::LocusOptions options_of(const LocusRequest& request, const continu
 
 int run_locus(const LocusRequest& request) {
   petsc::ensure_session();
+  const DeferredInterrupts deferred;
   const output::Run run = output::read_run(request.run);
   const output::BranchRow& row = run.row(request.label);
   const equilibrium::Solution stored = run.points.get(request.label);
@@ -91,6 +92,7 @@ int run_locus(const LocusRequest& request) {
   writer_options.force = request.common.force;
   writer_options.command = "locus";
   writer_options.version = WINDLASS_VERSION;
+  writer_options.options = {{"of", request.label}, {"in", request.second}};
   if (request.second != "load.angle" && request.second != "load.tension")
     writer_options.extra_parameter = request.second;
   CommonOptions common = request.common;

@@ -69,6 +69,7 @@ int run_robustness(const RobustnessRequest& request) {
   if (!request.scene.has_cylinder)
     throw InputError(request.scene.name + ": robustness needs a scene with a [cylinder]");
   petsc::ensure_session();
+  const DeferredInterrupts deferred;
   std::vector<Case> cases;
   if (!request.grid_only) cases = robustness::hard_cases(request.scene);
   const std::size_t hard = cases.size();

@@ -3,34 +3,28 @@
 #include <cstdio>
 
 #include "app/commands.hpp"
+#include "app/interrupt.hpp"
 #include "app/stored_point.hpp"
-#include "windlass/equilibrium/record.hpp"
-#include "windlass/equilibrium/start.hpp"
 #include "windlass/output/run_folder.hpp"
 #include "windlass/petsc/session.hpp"
-#include "windlass/scene/keys.hpp"
-#include "windlass/stability/analysis.hpp"
 
 namespace windlass::app {
 
 int run_stability(const RunRequest& request) {
   petsc::ensure_session();
+  const DeferredInterrupts deferred;
   const scene::Scene scene = scene_of_run(request.run, request.common);
   const output::Run run = output::read_run(request.run);
   output::RunWriter writer = output::RunWriter::resume(request.run);
   stability::SpectrumSolver solver;
   nlohmann::ordered_json report;
   bool disagreement = false, found = false;
-  for (std::size_t k = 0; k < run.points.size(); ++k) {
+  for (std::size_t k = 0; k < run.points.size() && !interrupted_by_user(); ++k) {
     const auto& key = run.points.keys()[k];
     const std::string name = output::point_name(key.branch, key.point, key.label);
     if (!request.label.empty() && request.label != name) continue;
     found = true;
-    const equilibrium::Solution stored = run.points.get(k);
-    const scene::Scene at = scene_of_point(scene, run, k);
-    auto problem = equilibrium::reopen(at, stored.restart, {equilibrium::load_key(at)});
-    const equilibrium::Stability stability = stability::analyse(
-        *problem, stored.restart.state, problem->parameters(), request.eigenvalues, true, solver);
+    const equilibrium::Stability stability = spectrum_of_point(scene, run, k, request.eigenvalues, solver);
     writer.set_stability(name, stability);
     // At a singular point the sign of the vanishing eigenvalue is rounding, and so is the count.
     double nearest = 1.0;
@@ -50,12 +44,13 @@ int run_stability(const RunRequest& request) {
     }
     report["points"].push_back(entry);
   }
-  if (!request.label.empty() && !found) run.points.get(request.label);  // throws, listing what there is
+  if (!request.label.empty() && !found && !interrupted_by_user())
+    run.points.get(request.label);  // throws, listing what there is
   writer.commit();
   if (request.common.json) std::printf("%s\n", report.dump(2).c_str());
   if (disagreement)
     std::fprintf(stderr, "windlass: at some points SLEPc and the inertia disagree on the index\n");
-  return disagreement ? not_finished : done;
+  return interrupted_by_user() ? interrupted : disagreement ? not_finished : done;
 }
 
 }  // namespace windlass::app

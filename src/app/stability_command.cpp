@@ -1,7 +1,4 @@
-#include <CLI/CLI.hpp>
-#include <memory>
-
-#include "app/commands.hpp"
+#include "app/run_command.hpp"
 
 namespace windlass::app {
 
@@ -10,18 +7,12 @@ void add_stability(CLI::App& app, CommonOptions& common, int& status) {
   command->footer(
       "The index is the number of negative eigenvalues of the second variation: 0 means stable. It is "
       "counted twice, by SLEPc and by the inertia of a factorisation.");
-  const auto request = std::make_shared<RunRequest>();
-  command->add_option("RUN", request->run, "run folder")->required()->type_name("");
-  command->add_option("LABEL", request->label, "a stored point, e.g. BP1 (default: all)")->type_name("");
+  const auto request = add_run(*command, common, status, run_stability);
+  command->add_option("LABEL", request->label, "a stored point, e.g. B1 (default: all)")->type_name("");
   command->add_option("--eigenvalues", request->eigenvalues, "how many of the lowest")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
   add_common_options(*command, common);
-  command->callback([request, &common, &status] {
-    request->common = common;
-    scene_of_run(request->run, common);  // tells a folder that is no run from one that is
-    status = run_stability(*request);
-  });
 }
 
 }  // namespace windlass::app

@@ -1,7 +1,4 @@
-#include <CLI/CLI.hpp>
-#include <memory>
-
-#include "app/commands.hpp"
+#include "app/run_command.hpp"
 
 namespace windlass::app {
 
@@ -11,8 +8,7 @@ void add_verify(CLI::App& app, CommonOptions& common, int& status) {
   command->footer(
       "Reports the largest mismatch at joints, the drift of the invariants, the force balance, the worst gap "
       "and the smallest contact force. Exit status 3 if a point fails.");
-  const auto request = std::make_shared<RunRequest>();
-  command->add_option("RUN", request->run, "run folder")->required()->type_name("");
+  const auto request = add_run(*command, common, status, run_verify);
   command
       ->add_option("--tolerance", request->standard.tolerance,
                    "relative tolerance of the reference integration")
@@ -22,11 +18,6 @@ void add_verify(CLI::App& app, CommonOptions& common, int& status) {
       ->check(CLI::Range(1e-15, 1.0))
       ->capture_default_str();
   add_common_options(*command, common);
-  command->callback([request, &common, &status] {
-    request->common = common;
-    scene_of_run(request->run, common);  // tells a folder that is no run from one that is
-    status = run_verify(*request);
-  });
 }
 
 }  // namespace windlass::app
