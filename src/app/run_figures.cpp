@@ -75,7 +75,7 @@ int run_figures(const FiguresRequest& request) {
   } else if (!request.common.quiet) {
     fmt::print("{}  ({} figures, {:.1f} s)\n", page.string(), drawn.size(), seconds);
   }
-  return done;
+  return incomplete ? not_finished : done;
 }
 
 }  // namespace windlass::app

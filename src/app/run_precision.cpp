@@ -37,6 +37,7 @@ int run_precision(const PrecisionRequest& request) {
   if (fs::exists(folder) && !fs::is_empty(folder) && !request.common.force)
     throw InputError(folder.string() + ": is not empty; --force replaces what is there");
   petsc::ensure_session();
+  const DeferredInterrupts deferred;
   fs::create_directories(folder);
   Progress progress(request.common.quiet);
   precision::StudyOptions options;

@@ -128,6 +128,7 @@ void summarise(const SweepFolder& folder, const SweepRequest& request, int cases
 
 int run_sweep(const SweepRequest& request) {
   petsc::ensure_session();
+  const DeferredInterrupts deferred;
   const Ranks ranks;
   std::optional<SweepGrid> grid;
   std::optional<SweepFolder> folder;

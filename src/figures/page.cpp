@@ -48,7 +48,13 @@ std::string section(const Figure& figure, const Study& study, const Canvas& canv
       figure.stem);
   for (const Statement& statement : figure.statements) text += statement_row(statement);
   text += "</table>\n<p>Computed by</p>\n<pre>";
-  for (const std::string& name : figure.runs) text += escaped(study.at(name).command) + "\n";
+  for (const std::string& name : figure.runs) {
+    const StudyRun& run = study.at(name);
+    text += escaped(run.command) + "\n";
+    for (const auto& lost : run.run.info.lost_branches)
+      text += escaped(fmt::format("# incomplete: branch {} could not be followed beyond T = {:.4f} ({})\n",
+                                  lost.branch, lost.T, lost.reason));
+  }
   return text + "</pre>\n";
 }
 
