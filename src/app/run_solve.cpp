@@ -58,6 +58,7 @@ struct Physical {
   std::string moment(double value) const {
     return units ? fmt::format("{:.6g} N mm  ", value * units->moment * 1e3) : "";
   }
+  static std::string beside(const std::string& quantity) { return quantity.empty() ? "" : " = " + quantity; }
   std::string pressure(double value) const {
     return units ? fmt::format("{:.6g} N/mm  ", value * units->pressure * 1e-3) : "";
   }
@@ -69,12 +70,12 @@ void print_contacts(const Solution& solution, const Physical& physical) {
     if (joint.kind == equilibrium::JointKind::touch || joint.kind == equilibrium::JointKind::edge)
       print_quantity(joint.kind == equilibrium::JointKind::touch ? "  touch" : "  edge", joint.force,
                      physical.force(joint.force),
-                     fmt::format("at s = {:.6g} {}", joint.s, physical.length(joint.s)));
+                     fmt::format("at s = {:.6g}{}", joint.s, physical.beside(physical.length(joint.s))));
     if (k >= solution.arcs.size() || solution.arcs[k].kind != equilibrium::ArcKind::line) continue;
     const auto& line = solution.arcs[k];
-    print_quantity(
-        "  line", line.force, physical.force(line.force),
-        fmt::format("pressure up to {:.6g} {}", line.p.maxCoeff(), physical.pressure(line.p.maxCoeff())));
+    print_quantity("  line", line.force, physical.force(line.force),
+                   fmt::format("pressure up to {:.6g}{}", line.p.maxCoeff(),
+                               physical.beside(physical.pressure(line.p.maxCoeff()))));
   }
 }
 

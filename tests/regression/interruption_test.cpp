@@ -74,13 +74,18 @@ BOOST_AUTO_TEST_CASE(commands_that_only_read_stop_at_once) {
 BOOST_AUTO_TEST_CASE(interrupted_spectra_are_kept) {
   const TemporaryFolder folder;
   make_run(folder, {"--set", "continuation.step_max=0.01", "--no-eigenvalues"});
-  const auto begin = std::chrono::steady_clock::now();
-  const Outcome outcome = interrupt_program({"stability", "run"}, folder.path(), SIGINT, [&] {
-    return std::chrono::steady_clock::now() - begin > std::chrono::milliseconds(400);
-  });
-  BOOST_TEST(outcome.status == 130);
-  const Table table = read_csv(folder.path() / "run" / "branches.csv");
-  BOOST_REQUIRE(table.rows.size() > 300u);  // seconds of work
+  Table table;
+  // Seconds of work; a machine busy with other things may need longer for the first point.
+  for (const int milliseconds : {400, 1600, 6400}) {
+    const auto begin = std::chrono::steady_clock::now();
+    const Outcome outcome = interrupt_program({"stability", "run"}, folder.path(), SIGINT, [&] {
+      return std::chrono::steady_clock::now() - begin > std::chrono::milliseconds(milliseconds);
+    });
+    BOOST_TEST(outcome.status == 130);
+    table = read_csv(folder.path() / "run" / "branches.csv");
+    BOOST_REQUIRE(table.rows.size() > 300u);
+    if (!table.rows.front().at("eigenvalue_1").empty()) break;
+  }
   BOOST_TEST(!table.rows.front().at("eigenvalue_1").empty());
   BOOST_TEST(table.rows.back().at("eigenvalue_1").empty());
   const Outcome rest = run_program({"stability", "run", "1-2"}, folder.path());

@@ -22,7 +22,9 @@
     const all = data.branches.flatMap((b) => column(b, name)).filter((v) => v !== null);
     return all.length > 0 && Math.max(...all) - Math.min(...all) > 1e-9 * Math.max(1, ...all.map(Math.abs));
   };
-  const positive = (name) => data.branches.every((b) => column(b, name).every((v) => v === null || v > 0));
+  /** A logarithmic axis can show it; zeros, where contact is lost, fall out of it. */
+  const positive = (name) => data.branches.every((b) => column(b, name).every((v) => v === null || v >= 0)) &&
+    data.branches.some((b) => column(b, name).some((v) => v > 0));
 
   // ---- diagram --------------------------------------------------------------------------------------------------
 
@@ -102,7 +104,7 @@
       font, margin: { l: 62, r: 12, t: 8, b: 48 }, hovermode: "closest", dragmode: "pan", uirevision: `${state.x}|${state.y}|${state.xLog}|${state.yLog}`,
       xaxis: axis(state.x, state.xLog), yaxis: axis(state.y, state.yLog),
       legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0 },
-    }, { ...config, scrollZoom: true });
+    }, { ...config, scrollZoom: true, modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"] });
   }
 
   // ---- the chosen equilibrium -----------------------------------------------------------------------------------
