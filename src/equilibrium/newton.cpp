@@ -55,7 +55,7 @@ NewtonResult NewtonSolver::System::solve(chain::Chain& chain, Eigen::VectorXd& x
   check(SNESGetConvergedReason(snes_, &reason));
   check(SNESGetIterationNumber(snes_, &iterations));
   // Near rounding the line search may find no decrease any more; the state is judged, not the reason.
-  const bool at_rounding = reason < 0 && started_ && factored_ && measure();
+  const bool at_rounding = reason < 0 && started_ && factored_ && (measure() || nothing_left());
   NewtonResult result;
   result.converged = reason > 0 ? accepted() : at_rounding;
   result.iterations = static_cast<int>(iterations);

@@ -194,6 +194,13 @@ bool NewtonSolver::System::accepted() const {
   return residual_ <= residual_tolerance_ && increment_ <= increment_tolerance_;
 }
 
+bool NewtonSolver::System::nothing_left() const {
+  // A state that hardly resists a motion (a bight whose pulls are parallel to 1e-6) turns the rounding of the residual into
+  // increments far above the tolerance.
+  constexpr double rounding = 1e-13, visible = 1e-3;
+  return residual_ <= rounding && increment_ <= visible;
+}
+
 PetscErrorCode NewtonSolver::System::judge(SNES snes, PetscInt iteration, PetscReal, PetscReal,
                                            PetscReal norm, SNESConvergedReason* reason, void* context) {
   return guard([&] {

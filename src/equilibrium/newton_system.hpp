@@ -38,6 +38,8 @@ class NewtonSolver::System {
   /// Increment still due, J⁻¹ residual, from the last factorisation.
   void measure_increment(const Eigen::VectorXd& residual);
   bool accepted() const;
+  /// Is the residual all rounding, though the increment is above its tolerance?
+  bool nothing_left() const;
 
   Eigen::Index size_;
   NewtonOptions options_;
