@@ -201,7 +201,8 @@ void Chain::factor(const VectorXd& x, const Loads& loads, const MatrixXd& b, con
   }
   if (!dense.allFinite()) throw std::domain_error("the chain's matrix is not finite");
   if (dense.rows() > 0) dense_.compute(dense);
-  if (neutral_turn_ && dense.rows() > 0 && is_singular(dense_)) dense_.compute(without_neutral_motion(dense));
+  const bool may_turn = neutral_turn_ && (!half() || *neutral_turn_ == Parity::even);
+  if (may_turn && dense.rows() > 0 && is_singular(dense_)) dense_.compute(without_neutral_motion(dense));
   int negative = 0;
   for (const Link& link : links_) negative += link.arc->negative_pivots();
   determinant_sign_ = negative % 2 == 0 ? 1 : -1;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "windlass/contact/planar_joints.hpp"
@@ -90,17 +91,19 @@ std::unique_ptr<Arc> make_arc(const RodKind& rod, Stretch stretch, const ArcMesh
                                    mesh.stages);
 }
 
-/// May the whole rod turn at no cost? A flat loop between two touches turns about the pulls that lie along one line,
-/// a bight hung over one touch about the normal there if the pulls are parallel. A line contact
-/// alone is about to become one of the two.
-bool turns_freely(const RodKind& rod, const Topology& t) {
+/// Parity, under the half-turn, of a turn of the whole rod that costs nothing: a flat loop between two touches turns about
+/// the pulls that lie along one line, a bight hung over one touch about the normal there if the pulls are parallel. A line
+/// contact alone is about to become one of the two.
+std::optional<contact::Parity> neutral_turn(const RodKind& rod, const Topology& t) {
   const double half_turns = rod.pull_angle / M_PI, whole = std::round(half_turns);
   constexpr double nearly = 1e-5;  // there too the turn costs too little to be told from rounding
-  if (!(std::abs(half_turns - whole) < nearly)) return false;
+  if (!(std::abs(half_turns - whole) < nearly)) return std::nullopt;
   const std::vector<Stretch> all = stretches(t);
   const auto has = [&](Stretch kind) { return std::find(all.begin(), all.end(), kind) != all.end(); };
-  if (std::remainder(whole, 2.0) == 0.0) return !(has(Stretch::line) && has(Stretch::gap));
-  return !has(Stretch::gap) && (t.mid_touch || has(Stretch::line));
+  if (std::remainder(whole, 2.0) == 0.0 && !(has(Stretch::line) && has(Stretch::gap)))
+    return contact::Parity::odd;
+  if (whole == 1.0 && !has(Stretch::gap)) return contact::Parity::even;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -167,7 +170,7 @@ std::unique_ptr<Chain> build_chain(const RodKind& rod, const Topology& t,
     links.push_back(std::move(link));
   }
   auto chain = std::make_unique<Chain>(std::move(joints), std::move(fixed), std::move(links));
-  if (turns_freely(rod, t)) chain->expect_neutral_turn();
+  if (const auto parity = neutral_turn(rod, t)) chain->expect_neutral_turn(*parity);
   return chain;
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <Eigen/Sparse>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -78,9 +79,9 @@ class Chain {
 
   /// Factors [J B; Cᵀ D] at (x, loads); B, C: size()×k, D: k×k. @throws std::runtime_error if singular.
   void factor(const VectorXd& x, const Loads& loads, const MatrixXd& b, const MatrixXd& c, const MatrixXd& d);
-  /// A turn of the whole rod may cost nothing: where the matrix is singular, solutions then have no part along its
-  /// null vector.
-  void expect_neutral_turn() { neutral_turn_ = true; }
+  /// A turn of the whole rod may cost nothing. Its eigenvalue then does not count as negative, and where it makes the matrix
+  /// singular (a half chain's only if the turn is even) solutions have no part along it.
+  void expect_neutral_turn(contact::Parity parity) { neutral_turn_ = parity; }
   VectorXd solve(const VectorXd& f, const VectorXd& g, bool transposed = false) const;
   int determinant_sign() const { return determinant_sign_; }
 
@@ -171,7 +172,7 @@ class Chain {
   Eigen::PartialPivLU<MatrixXd> dense_;
   Eigen::Index borders_ = 0;
   int determinant_sign_ = 0;
-  bool neutral_turn_ = false;
+  std::optional<contact::Parity> neutral_turn_;
 };
 
 /// The state x of `from` on `to`, a chain of the same topology on other meshes.
