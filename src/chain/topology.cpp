@@ -55,9 +55,13 @@ std::unique_ptr<Joint> marker(const RodKind& rod, const Topology& t) {
   return std::make_unique<planar::MarkerGap>();
 }
 
-std::unique_ptr<Joint> end_joint(const RodKind& rod, Side arc_side) {
+/// Is the tail a formula? An infinite one always is, a finite one where its mesh says so.
+bool closed_form(const RodKind& rod, const ArcMesh& mesh) { return rod.infinite || mesh.stages == 0; }
+
+std::unique_ptr<Joint> end_joint(const RodKind& rod, const ArcMesh& tail, Side arc_side) {
   if (rod.strut) return std::make_unique<spatial::StrutEnd>(arc_side, rod.under_thrust);
-  if (rod.infinite) return std::make_unique<planar::FarEnd>(rod.spatial ? 3 : 1, rod.spatial ? 3 : 2);
+  if (closed_form(rod, tail))
+    return std::make_unique<planar::FarEnd>(rod.spatial ? 3 : 1, rod.spatial ? 3 : 2);
   if (rod.spatial) return std::make_unique<spatial::End>(arc_side, rod.clamped);
   return std::make_unique<planar::End>(arc_side, rod.clamped);
 }
@@ -83,8 +87,14 @@ std::unique_ptr<Arc> make_arc(const RodKind& rod, Stretch stretch, const ArcMesh
     const rod::SurfaceDensity density{rod.bending_stiffness, rod.stiffness(2)};
     return bvp::make_collocation_arc(density, mesh.nodes, mesh.stages);
   }
-  if (stretch == Stretch::tail && rod.infinite)
-    return std::make_unique<rod::TailArc>(rod.spatial ? 3 : 2, rod.bending_stiffness, rightward);
+  if (stretch == Stretch::tail && closed_form(rod, mesh)) {
+    if (!rod.infinite && (rod.clamped || !rod.isotropic_straight()))
+      throw std::invalid_argument(
+          "a finite tail in closed form needs a free end and an isotropic, straight rod");
+    using End = rod::TailArc::End;
+    return std::make_unique<rod::TailArc>(rod.spatial ? 3 : 2, rod.bending_stiffness, rightward,
+                                          rod.infinite ? End::infinite : End::moment_free);
+  }
   if (!rod.spatial)
     return bvp::make_collocation_arc(rod::PlanarDensity{rod.bending_stiffness}, mesh.nodes, mesh.stages);
   return bvp::make_collocation_arc(rod::KirchhoffDensity{rod.stiffness, rod.natural}, mesh.nodes,
@@ -145,6 +155,7 @@ std::unique_ptr<Chain> build_chain(const RodKind& rod, const Topology& t,
   const std::vector<Stretch> all = stretches(t);
   const double end = rod.infinite ? std::numeric_limits<double>::infinity() : 1.0;
   const int left_count = t.half ? 0 : static_cast<int>(t.left.size());
+  const auto mesh_of = [&](std::size_t i) { return meshes.empty() ? ArcMesh{} : meshes.at(i); };
   std::vector<std::unique_ptr<Joint>> joints;
   std::vector<double> fixed;
   std::vector<Link> links;
@@ -153,7 +164,8 @@ std::unique_ptr<Chain> build_chain(const RodKind& rod, const Topology& t,
       joints.push_back(first_joint(rod, t));
       fixed.push_back(0.0);
     } else if (i == 0 || i == static_cast<int>(all.size())) {
-      joints.push_back(end_joint(rod, i == 0 ? Side::right : Side::left));
+      joints.push_back(
+          end_joint(rod, mesh_of(i == 0 ? 0 : all.size() - 1), i == 0 ? Side::right : Side::left));
       fixed.push_back(i == 0 ? -end : end);
     } else if (!t.half && i == left_count) {
       joints.push_back(marker(rod, t));
@@ -164,7 +176,7 @@ std::unique_ptr<Chain> build_chain(const RodKind& rod, const Topology& t,
     }
     if (i == static_cast<int>(all.size())) break;
     Link link;
-    link.arc = make_arc(rod, all[i], meshes.empty() ? ArcMesh{} : meshes.at(i), i >= left_count);
+    link.arc = make_arc(rod, all[i], mesh_of(i), i >= left_count);
     link.role = word(all[i]);
     if (all[i] == Stretch::tail && !rod.strut) link.pull = i >= left_count ? 1 : -1;
     links.push_back(std::move(link));

@@ -43,6 +43,7 @@ std::optional<Started> attempt(const scene::Scene& scene, bool spatial, bool hal
   std::vector<ArcMesh> meshes;
   for (std::size_t i = 0; i < draft.right.size(); ++i)
     meshes.push_back(first_mesh(draft.right[i], loads, draft.s[i + 1] - draft.s[i]));
+  choose_tails(meshes, topology, rod_of(scene, spatial), loads, draft.s);
   auto problem = std::make_shared<RodProblem>(scene, spatial, topology, meshes, keys);
   const Vector p = problem->parameters();
   Vector x = chain::guess_state(problem->chain(), topology, problem->rod(), profile, draft.s);

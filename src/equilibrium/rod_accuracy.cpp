@@ -35,6 +35,13 @@ std::vector<double> bounded(const std::vector<double>& mesh, double growth) {
   return out;
 }
 
+/// Order of the arcs on a mesh, at their ends; a chain of formulas only never asks.
+double order_of(const std::vector<chain::ArcMesh>& meshes) {
+  int stages = 1;
+  for (const chain::ArcMesh& mesh : meshes) stages = std::max(stages, mesh.stages);
+  return 2.0 * stages;
+}
+
 }  // namespace
 
 double RodProblem::error_estimate(const Vector& x, const Vector& p) {
@@ -49,7 +56,7 @@ double RodProblem::error_estimate(const Vector& x, const Vector& p) {
   if (!meshed) return last_error_ = rounding;
   if (!finer_) {
     std::vector<chain::ArcMesh> finer = meshes_;
-    for (auto& mesh : finer) ++mesh.stages;
+    for (auto& mesh : finer) mesh.stages += mesh.stages > 0;  // formulas stay
     finer_ = chain::build_chain(rod_, topology_, finer);
   }
   Vector fine = chain::transfer_state(*chain_, *finer_, x, at);
@@ -120,7 +127,7 @@ Vector RodProblem::refine(Vector x, const Vector& p, int rounds) {
     }
     if (too_large <= 1.0 && k > 0) return x;  // the first mesh is a guess and is always equidistributed
     const Loads at = loads(p);
-    const double order = 2.0 * meshes_.back().stages;
+    const double order = order_of(meshes_);
     meshes_ = new_meshes(x, at, std::pow(10.0 * too_large, 1.0 / order));
     std::unique_ptr<chain::Chain> old = std::move(chain_);
     rebuild();
@@ -158,7 +165,7 @@ std::optional<Vector> RodProblem::adapt(const Vector& x, const Vector& p) {
   // A straight strut is exact on any mesh, which says nothing about its modes: their loads need the mesh it has.
   const bool coarsen = too_large < superfluous && last_error_ > 1.5 * rounding;
   if (too_large <= 1.0 && !coarsen) return std::nullopt;
-  const double order = 2.0 * meshes_.back().stages;
+  const double order = order_of(meshes_);
   const auto meshes = new_meshes(x, loads(p), std::pow(30.0 * too_large, 1.0 / order));
   const auto elements = [](const std::vector<chain::ArcMesh>& arcs) {
     std::size_t sum = 0;

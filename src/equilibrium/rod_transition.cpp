@@ -5,6 +5,7 @@
 #include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/equilibrium/opening.hpp"
 #include "windlass/equilibrium/rod_problem.hpp"
+#include "windlass/equilibrium/start.hpp"
 
 namespace windlass::equilibrium {
 
@@ -34,8 +35,9 @@ Entry draft(const RodProblem& from, const Successor& next, const chain::Profile&
   for (auto& mesh : meshes)
     if (mesh.nodes.size() <= elements) mesh.nodes = chain::uniform_mesh(elements);  // was a closed form
   for (int link : next.opened) meshes[link].nodes = chain::uniform_mesh(elements);
-  auto problem =
-      std::make_shared<RodProblem>(from.scene_at(p), from.spatial(), next.topology, meshes, from.keys());
+  const scene::Scene scene = from.scene_at(p);
+  choose_tails(meshes, next.topology, from.rod(), loads_of(scene), next.s);
+  auto problem = std::make_shared<RodProblem>(scene, from.spatial(), next.topology, meshes, from.keys());
   const Vector guess = chain::guess_state(problem->chain(), next.topology, problem->rod(), shape, next.s);
   return {problem, guess, p};
 }

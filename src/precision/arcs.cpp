@@ -92,6 +92,10 @@ Reference make_reference(const scene::Scene& scene) {
     start.x = helix.restart.state;
     start.p = start.problem->parameters();
   }
+  if (auto meshed = equilibrium::with_meshed_tails(*start.problem, start.x, start.p)) {
+    start = *meshed;
+    start.x = start.problem->refine(start.x, start.p);
+  }
   out.topology = start.problem->topology();
   out.meshes = start.problem->meshes();
   const contact::Loads loads = start.problem->loads(start.p);

@@ -27,6 +27,7 @@ Reference make_reference(const scene::Scene& scene);
 /// Collocation arcs on a fixed mesh.
 class ArcSolver {
  public:
+  /// @param stages  0: the tail is a formula
   ArcSolver(const Reference& reference, bool spatial, bool half, int elements, int stages);
 
   /// From the guess to a converged state and its R_tot; this is what is timed. False if Newton fails.

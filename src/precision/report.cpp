@@ -33,10 +33,13 @@ std::vector<std::pair<std::string, std::vector<Measurement>>> series(const Study
 
 /// One colour a method, lighter symbols for other orders.
 const char* colour(const std::string& method) {
-  static const std::map<std::string, const char*> colours{
-      {"closed form", "#000000"},           {"planar arcs", "#0072b2"},
-      {"Kirchhoff arcs, half", "#d55e00"},  {"Kirchhoff arcs, full", "#cc79a7"},
-      {"nodal complementarity", "#009e73"}, {"discrete elastic rod", "#e69f00"}};
+  static const std::map<std::string, const char*> colours{{"closed form", "#000000"},
+                                                          {"planar arcs", "#0072b2"},
+                                                          {"planar arcs, tail by formula", "#56b4e9"},
+                                                          {"Kirchhoff arcs, half", "#d55e00"},
+                                                          {"Kirchhoff arcs, full", "#cc79a7"},
+                                                          {"nodal complementarity", "#009e73"},
+                                                          {"discrete elastic rod", "#e69f00"}};
   const auto found = colours.find(method);
   return found == colours.end() ? "#7f7f7f" : found->second;
 }

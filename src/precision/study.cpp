@@ -127,6 +127,17 @@ void measure_arcs(const Reference& reference, const StudyOptions& options, Measu
     }
 }
 
+/// What `solve` does: no mesh at all.
+void measure_formula_tail(const Reference& reference, Measurer& measurer) {
+  ArcSolver solver(reference, false, true, 0, 0);
+  measurer.measure(
+      "planar arcs, tail by formula", 0, 0, [&] { return solver.solve(); },
+      [&](Measurement& m) {
+        m.unknowns = solver.unknowns();
+        m.value = solver.quantities();
+      });
+}
+
 void measure_nodal(const Reference& reference, const StudyOptions& options, Measurer& measurer) {
   const contact::Loads loads = finite_loads(reference);
   const std::vector<int> counts = options.quick ? std::vector{20, 40} : std::vector{20, 40, 80, 160, 320};
@@ -199,6 +210,9 @@ Study study(const scene::Scene& scene, const StudyOptions& options) {
   out.reference_unknowns = reference.unknowns;
   Measurer measurer(reference, options, out);
   if (reference.flat && line) measure_closed_form(reference, measurer);
+  const scene::Scene& of = reference.scene;
+  if (reference.flat && line && !of.rod.infinite() && of.ends.kind == scene::EndKind::moment_free)
+    measure_formula_tail(reference, measurer);
   if (reference.flat) measure_arcs(reference, options, measurer, "planar arcs", false, true);
   measure_arcs(reference, options, measurer, "Kirchhoff arcs, half", true, true);
   measure_arcs(reference, options, measurer, "Kirchhoff arcs, full", true, false);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "windlass/equilibrium/start.hpp"
+
 namespace windlass::stability {
 
 using contact::Parity;
@@ -66,11 +68,14 @@ Mode mode_of(RodProblem& problem, const Vector& x, const Vector& p, const Vector
   return mode;
 }
 
-Stability analyse(RodProblem& problem, const Vector& x, const Vector& p, int count, bool modes,
+Stability analyse(RodProblem& given, const Vector& at_x, const Vector& p, int count, bool modes,
                   SpectrumSolver& solver) {
-  const contact::Loads loads = problem.loads(p);
   Stability out;
-  out.inertia_index = problem.total_index(x, p);
+  out.inertia_index = given.total_index(at_x, p);
+  const auto meshed = equilibrium::with_meshed_tails(given, at_x, p);
+  RodProblem& problem = meshed ? *meshed->problem : given;
+  const Vector& x = meshed ? meshed->x : at_x;
+  const contact::Loads loads = problem.loads(p);
   std::vector<Mode> all;
   for (const Parity parity : {Parity::even, Parity::odd}) {
     if (parity == Parity::odd && !is_half(problem)) continue;

@@ -108,7 +108,10 @@ int PatternSpectrum::factor(const Chain::SecondVariation& variation) {
 }
 
 EigenPairs PatternSpectrum::solve_for(int wanted) {
-  check(EPSSetDimensions(eps_, wanted, PETSC_DEFAULT, PETSC_DEFAULT));
+  // The eigenvalues nearest to zero stand out after the inversion: a few vectors suffice (SLEPc's default of 16 are 16
+  // solutions), and where they do not it restarts.
+  constexpr int spare = 6;
+  check(EPSSetDimensions(eps_, wanted, wanted + std::max(spare, wanted), PETSC_DEFAULT));
   // Always the same random start, so that a point's spectrum does not depend on how many were computed before.
   BV basis = nullptr;
   PetscRandom random = nullptr;

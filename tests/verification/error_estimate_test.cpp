@@ -37,6 +37,7 @@ std::vector<chain::ArcMesh> halved(const std::vector<chain::ArcMesh>& meshes) {
 /// The same equilibrium on coarse meshes of `stages` stages, its estimate against the change when elements are halved
 /// twice.
 void check(Started start, int stages, const char* what) {
+  if (const auto meshed = equilibrium::with_meshed_tails(*start.problem, start.x, start.p)) start = *meshed;
   std::vector<chain::ArcMesh> meshes = start.problem->meshes();
   for (auto& mesh : meshes) mesh.stages = stages;
   const auto at = [&](const std::vector<chain::ArcMesh>& on, double* estimate) {

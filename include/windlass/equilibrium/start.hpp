@@ -43,6 +43,16 @@ Started lift(RodProblem& planar, const Vector& x, const Vector& p, bool half);
 /// The full chain of a symmetric state. @throws NoEquilibrium
 Started unfold(RodProblem& halved, const Vector& x, const Vector& p, int iterations);
 
+/// Tails as they can be: a formula where a finite tail without torsion or moment at its end leaves a line contact
+/// (stages = 0; its angle to the pull is then below π, see rod::TailArc), a mesh elsewhere.
+/// @param s  places of the joints
+void choose_tails(std::vector<chain::ArcMesh>& meshes, const Topology& topology, const chain::RodKind& rod,
+                  const contact::Loads& loads, const std::vector<double>& s);
+
+/// The same state with every tail on a mesh: a spectrum weighs the tails' motion. nullopt where no tail is in closed form.
+/// @throws NoEquilibrium
+std::optional<Started> with_meshed_tails(RodProblem& problem, const Vector& x, const Vector& p);
+
 /// A stable state near an unstable flat (straight) one: found on the arms of the branch points met on the way from a load
 /// at which that state is stable: a higher tension, or no thrust. nullopt if there is none.
 std::optional<Started> stable_neighbour(Started& unstable);

@@ -42,7 +42,7 @@ struct StudyOptions {
   std::function<bool()> stop;                        ///< asked between measurements; may be empty
 };
 
-/// Measures every method that can do the scene: on flat states the closed form, planar arcs, Kirchhoff arcs on the half
+/// Measures every method that can do the scene: on flat states the closed form, planar arcs (the tail a formula or on a mesh), Kirchhoff arcs on the half
 /// and the full chain, nodal complementarity (equilibrium/discovery) and the discrete elastic rod; on helical states
 /// the Kirchhoff arcs. Meshes have the reference's distribution of nodes, thinned.
 /// @throws InputError for a scene without cylinder; equilibrium::NoEquilibrium

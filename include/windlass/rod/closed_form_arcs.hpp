@@ -28,16 +28,25 @@ class PlanarLineArc final : public bvp::Arc {
   double stiffness_;
 };
 
-/// Infinite tail without torsion under the dead pull n: the homoclinic elastica in the plane of n and the first
-/// tangent. With ψ the angle between them, tan(ψ/4) falls as exp(−√(T/B) s), and the action over the straight rod is
+/// Tail without torsion under the dead pull n, infinite or with a moment-free end: the elastica in the plane of n and the
+/// first tangent. With ψ the angle between them and R = √(B T), the infinite tail is the homoclinic one, tan(ψ/4) falls as
+/// exp(−√(T/B) s), and the action over the straight rod is
 ///
-///     S = 4 √(B T) (1 − cos(ψ/2)),   dS/dψ = −m = 2 √(B T) sin(ψ/2).
+///     S = 4 R (1 − cos(ψ/2)),   dS/dψ = −m = 2 R sin(ψ/2).
 ///
-/// `dimension` 2: configuration θ; 3: unit quaternion. The end of the arc (q_b, ℓ) carries nothing.
+/// A tail of length ℓ ends at the angle ψ_e with sin²(ψ_e/2) = ρ sin²(ψ/2) (free_end.hpp), and
+///
+///     ∂S/∂ψ = 2 R sin(ψ/2) √(1 − ρ),   ∂S/∂ℓ = −T cos ψ_e.
+///
+/// `dimension` 2: configuration θ; 3: unit quaternion. The end of the arc (q_b, or q_a of a tail to the left) carries
+/// nothing; derivatives by n are not made, since it is given. A finite tail is a minimum of its energy for |ψ| < π, so
+/// nothing unstable hides in it (Sturm: the variation that leaves its end free does not vanish before ψ = π).
 class TailArc final : public bvp::Arc {
  public:
-  explicit TailArc(int dimension, double bending_stiffness = 1.0, bool starts_here = true)
-      : dimension_(dimension), stiffness_(bending_stiffness), starts_here_(starts_here) {}
+  enum class End { infinite, moment_free };
+  explicit TailArc(int dimension, double bending_stiffness = 1.0, bool starts_here = true,
+                   End end = End::infinite)
+      : dimension_(dimension), stiffness_(bending_stiffness), starts_here_(starts_here), end_(end) {}
   int ambient() const override { return dimension_ == 2 ? 1 : 4; }
   int tangent() const override { return dimension_ == 2 ? 1 : 3; }
   int forces() const override { return dimension_; }
@@ -48,17 +57,21 @@ class TailArc final : public bvp::Arc {
   bvp::ArcSamples sample(const bvp::ArcPoint& at) const override;
   double energy(const bvp::ArcPoint& at) const override;
   std::unique_ptr<bvp::Arc> remeshed(const std::vector<double>&, int) const override {
-    return std::make_unique<TailArc>(dimension_, stiffness_, starts_here_);
+    return std::make_unique<TailArc>(*this);
   }
   Eigen::VectorXd transfer(const bvp::ArcPoint&, const bvp::Arc&) const override { return {}; }
 
  private:
-  struct Derivatives;
-  Derivatives derivatives(const bvp::ArcPoint& at) const;
+  struct State;
+  struct Place;
+  State state(const bvp::ArcPoint& at) const;
+  Place place(const State& state, double length, int sample) const;
+  bvp::EndsMatrix ends_hessian(const bvp::ArcPoint& at) const;
 
   int dimension_;
   double stiffness_;
-  bool starts_here_;  ///< true: runs from a joint to s = +∞; false: from s = −∞ to a joint
+  bool starts_here_;  ///< true: runs from a joint outward, s growing; false: from s = −∞, or −L/2, to a joint
+  End end_;
 };
 
 }  // namespace windlass::rod

@@ -90,4 +90,95 @@ BOOST_AUTO_TEST_CASE(an_infinite_tails_action_moment_and_curvature) {
   BOOST_TEST((moment - Eigen::Vector3d(0.0, 0.0, -g(0))).norm() < 1e-13);
 }
 
+BOOST_AUTO_TEST_CASE(a_tails_hessian_is_the_derivative_of_its_gradient) {
+  const double stiffness = 1.3, length = 2.2;  // 1.9 decay lengths: the free end is felt
+  const Eigen::Vector3d n(0.8, -0.4, 0.3);
+  constexpr double small = 1e-5;
+  for (const int dimension : {2, 3})
+    for (const bool starts_here : {true, false})
+      for (const auto end : {TailArc::End::infinite, TailArc::End::moment_free}) {
+        TailArc tail(dimension, stiffness, starts_here, end);
+        const int d = tail.tangent(), first = starts_here ? 0 : d, last = tail.ends() - 1;
+        const double theta[1] = {1.4};
+        const Quaternion q = product(rotation(Eigen::Vector3d(0.2, 0.9, -0.4).normalized(), 1.1), frame(0.5));
+        const auto gradient_at = [&](const Eigen::VectorXd& step) {  // of the configuration and the length
+          const double moved[1] = {theta[0] + step(0)};
+          const Quaternion turned = dimension == 3 ? retract(q, step.head<3>()) : q;
+          const double* at = dimension == 2 ? moved : turned.data();
+          EndsVector g;
+          tail.gradient({at, at, nullptr, n.data(), length + step(d)}, nullptr, g);
+          Eigen::VectorXd out(d + 1);
+          out << Eigen::VectorXd(g.segment(first, d)), g(last);
+          return out;
+        };
+        const double* at = dimension == 2 ? theta : q.data();
+        EndsMatrix h;
+        tail.factor({at, at, nullptr, n.data(), length}, h);
+        const Eigen::VectorXd g = gradient_at(Eigen::VectorXd::Zero(d + 1));
+        for (int k = 0; k <= d; ++k) {
+          Eigen::VectorXd step = Eigen::VectorXd::Zero(d + 1);
+          step(k) = small;
+          Eigen::VectorXd column = (gradient_at(step) - gradient_at(-step)) / (2.0 * small);
+          // Increments of frames do not commute: the derivative of the gradient has the antisymmetric part g × as well.
+          if (dimension == 3 && k < 3) {
+            const Eigen::Vector3d moment = g.head<3>(), direction = step.head<3>() / small;
+            column.head<3>() -= moment.cross(direction);
+          }
+          Eigen::VectorXd expected(d + 1);
+          expected << Eigen::VectorXd(h.block(first, k < d ? first + k : last, d, 1)),
+              h(last, k < d ? first + k : last);
+          BOOST_TEST_CONTEXT("dimension " << dimension << ", starts here " << starts_here << ", direction "
+                                          << k)
+          BOOST_TEST((column - expected).lpNorm<Eigen::Infinity>() < 1e-8);  // small², rounding/small
+        }
+      }
+}
+
+BOOST_AUTO_TEST_CASE(a_free_tail_obeys_the_pendulum_and_ends_without_moment) {
+  const double stiffness = 1.3, length = 3.0, theta[1] = {1.9};
+  const Eigen::Vector2d n(0.8, -0.4);
+  const double tension = n.norm(), pull = std::atan2(n(1), n(0));
+  TailArc tail(2, stiffness, true, TailArc::End::moment_free);
+  const ArcPoint at{theta, theta, nullptr, n.data(), length};
+  const windlass::bvp::ArcSamples samples = tail.sample(at);
+  const Eigen::Index count = samples.sigma.size();
+  EndsVector g;
+  tail.gradient(at, nullptr, g);
+  BOOST_TEST(samples.momentum(0, 0) == -g(0), boost::test_tools::tolerance(1e-13));
+  BOOST_TEST(std::abs(samples.momentum(0, count - 1)) < 1e-14);
+  BOOST_TEST(samples.sigma(0) == 0.0);
+  BOOST_TEST(samples.sigma(count - 1) == 1.0);
+  double energy = 0.0;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const double psi = samples.q(0, k) - pull, m = samples.momentum(0, k);
+    // The Hamiltonian, and the balance of moments m' = −(r' × n): m + r × n is constant.
+    BOOST_TEST(std::abs(0.5 * m * m / stiffness + tension * std::cos(psi) + g(5 - 1)) < 1e-13);
+    const Eigen::Vector2d r = samples.displacement.col(k);
+    BOOST_TEST(std::abs(m + r(0) * n(1) - r(1) * n(0) - samples.momentum(0, 0)) < 1e-13);
+    if (k == 0) continue;
+    const double h = length * (samples.sigma(k) - samples.sigma(k - 1)), before = samples.momentum(0, k - 1);
+    BOOST_TEST(h > 0.0);
+    energy += h * (m * m + m * before + before * before) / (6.0 * stiffness);
+    // Bθ' = m, by the trapezium rule: h³ m''/12.
+    const double turn = samples.q(0, k) - samples.q(0, k - 1);
+    BOOST_TEST(std::abs(turn - 0.5 * h * (m + before) / stiffness) < 0.2 * h * h * h);
+  }
+  BOOST_TEST(tail.energy(at) == energy, boost::test_tools::tolerance(2e-3));  // m² by parabolas, h <= 0.13
+}
+
+BOOST_AUTO_TEST_CASE(a_long_free_tail_is_the_infinite_one) {
+  const double theta[1] = {1.9};
+  const Eigen::Vector2d n(0.8, -0.4);
+  TailArc free(2, 1.0, true, TailArc::End::moment_free), infinite(2, 1.0);
+  for (const double length :
+       {20.0, 60.0}) {  // below and beyond the 40 decay lengths where the formula changes
+    const ArcPoint at{theta, theta, nullptr, n.data(), length};
+    EndsVector g, limit;
+    free.gradient(at, nullptr, g);
+    infinite.gradient(at, nullptr, limit);
+    BOOST_TEST(g(0) == limit(0), boost::test_tools::tolerance(1e-14));  // exp(−2·19) = 3e-17
+    BOOST_TEST(free.energy(at) == infinite.energy(at), boost::test_tools::tolerance(1e-14));
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

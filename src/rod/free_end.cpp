@@ -1,0 +1,57 @@
+#include "free_end.hpp"
+
+#include <algorithm>
+#include <boost/math/special_functions/ellint_rd.hpp>
+#include <boost/math/special_functions/ellint_rf.hpp>
+#include <cmath>
+
+namespace windlass::rod {
+
+namespace {
+
+using Plain = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+
+/// u with its derivatives: ρ ∂u/∂ρ and ∂u/∂q. By ∂R_F/∂x = −R_D(y, z, x)/6 (DLMF 19.18.1).
+struct Time {
+  double u, by_log_ratio, by_q;
+};
+
+Time time_from_end(double ratio, double q) {
+  const double below = 1.0 - ratio * q, x = ratio * (1.0 - q) / below, root = std::sqrt(1.0 - x);
+  const double rf = boost::math::ellint_rf(x, ratio, 1.0, Plain());
+  const double rf_x = -boost::math::ellint_rd(ratio, 1.0, x, Plain()) / 6.0;
+  const double rf_y = -boost::math::ellint_rd(x, 1.0, ratio, Plain()) / 6.0;
+  const double by_x = root * rf_x - 0.5 * rf / root;
+  return {root * rf, x / below * by_x + root * ratio * rf_y, -ratio * (1.0 - ratio) / (below * below) * by_x};
+}
+
+}  // namespace
+
+Elapsed elapsed(double ratio, double q) {
+  const Time time = time_from_end(ratio, q);
+  return {time.u, time.by_log_ratio};
+}
+
+FreeEnd free_end(double u, double q) {
+  if (u > far_end) return {};
+  // Newton in log ρ, in which u is nearly linear: from the end of a straight tail, cosh⁻²u, and the separatrix's angle.
+  const double quarter = 0.5 * (1.0 + std::sqrt(1.0 - q));  // cos²(ψ/4)
+  const double straight = std::pow(std::cosh(u), -2);
+  double log_ratio = std::log(std::min(straight / (quarter * quarter), 0.5 * (1.0 + straight)));
+  Time at{};
+  for (int k = 0; k < 40; ++k) {
+    at = time_from_end(std::exp(log_ratio), q);
+    const double step = (u - at.u) / at.by_log_ratio;
+    log_ratio = log_ratio + step < 0.0 ? log_ratio + step : 0.5 * log_ratio;
+    if (std::abs(step) < 1e-9) break;  // squared by the last step
+  }
+  const double ratio = std::exp(log_ratio);
+  return {ratio, at.by_log_ratio, -at.by_q * ratio / at.by_log_ratio, ratio / at.by_log_ratio};
+}
+
+double bending(double ratio, double slope, double q) {
+  // ∫ (ψ'/2)² du = E(u) − k'² u − k² sn cd of the modulus k² = 1 − ρq, and that is the derivative of u by the modulus.
+  return -2.0 * (1.0 - ratio * q) * slope - std::sqrt((1.0 - q) / (1.0 - ratio));
+}
+
+}  // namespace windlass::rod

@@ -1,0 +1,33 @@
+#pragma once
+
+/// The elastica between a place where its tangent makes the angle ψ with the pull and its moment-free end: a pendulum
+/// released from rest at ψ_e, the angle at the end. With q = sin²(ψ/2), ρ = sin²(ψ_e/2)/q and u = √(T/B) s, s the length
+/// from the end,
+///
+///     u(ρ, q) = ½ ∫ dt / √(t (1 − t) (t − ρq)) over t from ρq to q
+///             = √(1 − x) R_F(x, ρ, 1),   x = ρ (1 − q)/(1 − ρq)      (Carlson's R_F; NIST DLMF 19.25.5).
+namespace windlass::rod {
+
+struct FreeEnd {
+  double ratio = 0.0;       ///< ρ in [0, 1)
+  double log_slope = -0.5;  ///< ρ ∂u/∂ρ
+  double by_q = 0.0;        ///< ∂ρ/∂q at constant u
+  double by_u = 0.0;        ///< ∂ρ/∂u at constant q
+};
+
+/// Beyond this many decay lengths the end is not felt: ρ ~ exp(−2u) = 1e-35, and the tail is the infinite one.
+inline constexpr double far_end = 40.0;
+
+/// u(ρ, q) and ρ ∂u/∂ρ. @param q  sin²(ψ/2) in [0, 1)
+struct Elapsed {
+  double u, log_slope;
+};
+Elapsed elapsed(double ratio, double q);
+
+/// The free end u decay lengths away. @param u  > 0
+FreeEnd free_end(double u, double q);
+
+/// Bending energy between here and the end, over 2 √(B T).
+double bending(double ratio, double log_slope, double q);
+
+}  // namespace windlass::rod
