@@ -116,7 +116,7 @@ struct TailArc::Place {
 
 namespace {
 
-constexpr int samples = 49;
+constexpr int samples = 33;
 
 }  // namespace
 

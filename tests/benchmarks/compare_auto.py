@@ -167,7 +167,7 @@ def main():
         for title, equations, constants, meshes, output, scene, settings, columns, reference, choose in [
                 cases[k] for k in chosen if k < len(cases)]:
             jobs = [(f"tolerance {t:g}", lambda t=t: windlass.run("continue", scene, {**settings, "model.tolerance": t}, walk))
-                    for t in (1e-6, 1e-8, 2e-9)]
+                    for t in (1e-6, 2e-9, 1e-11)]
             ours = len(jobs)
             if with_auto:
                 (folder / "auto").mkdir(exist_ok=True)

@@ -3,8 +3,8 @@
 
     tests/benchmarks/scaling.py [--windlass build/release/windlass]
 
-Twelve points of the flat Kirchhoff branch from T = 3 on the half chain, index and error estimate included. (Cost against
-the number of elements of one arc: benchmark_arc_condensation.)
+Twelve points of the flat Kirchhoff branch from T = 50 on the half chain, where even 16 turns are stable and no branch
+point is located, index and error estimate included. (Cost against the number of elements: benchmark_arc_condensation.)
 """
 import argparse, pathlib, tempfile
 from compare_auto import ROOT, WALK, Windlass
@@ -24,7 +24,7 @@ def main():
         windlass = Windlass(options.windlass, pathlib.Path(name))
         for what, value, angle, length in cases:
             rows, _, counted = windlass.run("continue", "capstan-2pi.toml", {
-                "model.kind": "kirchhoff", "load.angle": f"{angle} pi", "rod.length": length, "continuation.from": 3,
+                "model.kind": "kirchhoff", "load.angle": f"{angle} pi", "rod.length": length, "continuation.from": 50,
                 "continuation.max_points": 12}, CALLGRIND)
             print(f"{what:>8}{value:>6}{counted / 1e6 / len(rows):>15.2f}")
 
