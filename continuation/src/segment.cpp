@@ -59,25 +59,31 @@ Sample* Segment::finish(const Borders& borders, Iterate it, bool wants_complete)
     return nullptr;
   }
   sample.s = path_length(sample.it.u, sample.it.y[0]);
-  if (wants_complete) {
-    try {
-      if (&borders != &keller_) sample.report.factored_here = false;
-      complete(sample);
-    } catch (const std::domain_error& error) {
-      failure_ = error.what();
-      return nullptr;
-    } catch (const std::runtime_error& error) {
-      failure_ = error.what();
-      return nullptr;
-    }
-  }
+  if (&borders != &keller_) sample.report.factored_here = false;
+  if (wants_complete && !completed(sample)) return nullptr;
   samples_.push_back(std::move(sample));
   return &samples_.back();
 }
 
+bool Segment::completed(Sample& sample) {
+  try {
+    complete(sample);
+    return true;
+  } catch (const std::domain_error& error) {
+    failure_ = error.what();
+  } catch (const std::runtime_error& error) {
+    failure_ = error.what();
+  }
+  return false;
+}
+
 Sample* Segment::at(double s, bool wants_complete) {
   for (Sample& sample : samples_) {
-    if (sample.s == s && (sample.complete || !wants_complete)) return &sample;
+    if (sample.s != s) continue;
+    if (sample.complete || !wants_complete) return &sample;
+    // Solved again it would differ by rounding, and with it the sign of an event function that is zero here.
+    sample.report.factored_here = false;
+    return completed(sample) ? &sample : nullptr;
   }
   keller_.g[0] = s;
   Sample* sample = finish(keller_, guess(s), wants_complete);

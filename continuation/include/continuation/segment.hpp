@@ -46,6 +46,8 @@ class Segment {
   /// Adds tangent, index and determinant: one factorisation, none if the corrector's last one was made there.
   /// @throws std::runtime_error, std::domain_error as the problem does
   void complete(Sample& sample);
+  /// The same; false, with the reason in failure(), where it throws.
+  bool completed(Sample& sample);
 
   /// Adds the event values.
   void add_events(Sample& sample);
