@@ -24,9 +24,10 @@ Chain::Chain(std::vector<std::unique_ptr<Joint>> joints, std::vector<double> fix
     : joints_(std::move(joints)), fixed_s_(std::move(fixed_s)), links_(std::move(links)) {
   if (joints_.size() != links_.size() + 1 || fixed_s_.size() != joints_.size())
     throw std::invalid_argument("a chain has one joint more than arcs");
-  for (const auto& joint : joints_) {
+  numbering_ = number(Purpose::equilibrium);
+  for (int j = 0; j < joint_count(); ++j) {
     joint_at_.push_back(ambient_size_);
-    ambient_size_ += joint->ambient() + joint->locates();
+    ambient_size_ += joints_[j]->ambient() + (numbering_.location[j] >= 0);
   }
   for (const Link& link : links_) {
     force_at_.push_back(ambient_size_);
@@ -36,13 +37,13 @@ Chain::Chain(std::vector<std::unique_ptr<Joint>> joints, std::vector<double> fix
     interior_at_.push_back(ambient_size_);
     ambient_size_ += link.arc->interior_ambient();
   }
-  numbering_ = number(Purpose::equilibrium);
   dense_size_ = size_ = numbering_.size;
   geometric_size_ = numbering_.geometric;
   for (const Link& link : links_) {
     interior_row_.push_back(size_);
     size_ += link.arc->interior_tangent();
   }
+  outside_ = out_of_plane();
   locals_.resize(links_.size());
   condensed_.resize(links_.size());
   gradients_.resize(links_.size());
@@ -65,11 +66,11 @@ Chain::Numbering Chain::number(Purpose purpose) const {
     // because moving it costs nothing to second order.
     const bool kept =
         joint.locates() && (purpose == Purpose::equilibrium || joint.kind() == JointKind::touch);
-    n.arclength.push_back(kept ? n.size++ : -1);
-    // A touch at the mid-point holds its location (sliding is pinned), but its direction of maximum counts, except in
-    // the even variations of a half chain, in which it does not slide.
-    const bool held = joint.kind() == JointKind::touch && !joint.locates() && (odd_end || j > 0);
-    n.constraints += kept || (purpose != Purpose::equilibrium && held);
+    // The half-turn symmetry of a half chain implies tangency at its mid-point, but not in odd variations.
+    const bool held = joint.held() && (odd_end || j > 0);
+    n.location.push_back(kept || held ? n.size++ : -1);
+    n.pin.push_back(held && purpose != Purpose::equilibrium ? n.size++ : -1);
+    n.constraints += (n.location[j] >= 0) + (n.pin[j] >= 0);
   }
   n.geometric = n.size;
   for (const Link& link : links_) {
@@ -122,7 +123,7 @@ VectorXd Chain::retract(const VectorXd& x, const VectorXd& dx) const {
     const Joint& joint = *joints_[j];
     const double* step = dx.data() + numbering_.coordinate[j];
     joint.retract(coordinates(x, j), step, coordinates(out, j));
-    if (joint.locates()) out(joint_at_[j] + joint.ambient()) += dx(numbering_.arclength[j]);
+    if (numbering_.location[j] >= 0) out(joint_at_[j] + joint.ambient()) += dx(numbering_.location[j]);
   }
   for (int i = 0; i < link_count(); ++i) {
     const Arc& arc = *links_[i].arc;
@@ -169,7 +170,9 @@ VectorXd Chain::residual(const VectorXd& x, const Loads& loads) const {
   for (int j = 0; j < joint_count(); ++j) {
     f.segment(numbering_.coordinate[j], joints_[j]->tangent()) +=
         joints_[j]->dead_load(coordinates(x, j), loads);
-    if (numbering_.arclength[j] >= 0) f(numbering_.arclength[j]) = location(x, j).value;
+    if (numbering_.location[j] < 0) continue;
+    f(numbering_.location[j]) = location(x, j).value;
+    if (joints_[j]->held()) f(numbering_.coordinate[j]) += x(joint_at_[j] + joints_[j]->ambient());
   }
   return f;
 }

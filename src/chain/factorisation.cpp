@@ -19,18 +19,16 @@ using contact::SmallVector;
 namespace {
 
 /// Number of eigenvalues of a symmetric matrix below zero, by Bunch-Kaufman factorisation (LAPACK dsytrf).
-/// @param rounding  a pivot less than this below zero, as a part of the largest entry, counts as zero
-int negative_eigenvalues(MatrixXd a, double rounding) {
+int negative_eigenvalues(MatrixXd a) {
   int n = static_cast<int>(a.rows()), info = 0, work_size = 64 * std::max(n, 1);
   if (n == 0) return 0;
-  const double zero = rounding * a.cwiseAbs().maxCoeff();
   std::vector<int> pivot(n);
   VectorXd work(work_size);
   dsytrf_("L", &n, a.data(), &n, pivot.data(), work.data(), &work_size, &info);
   int negative = 0;
   for (int k = 0; k < n; ++k) {
     if (pivot[k] > 0) {
-      negative += a(k, k) < -zero;
+      negative += a(k, k) < 0.0;
     } else {  // a 2×2 pivot has one eigenvalue of each sign
       ++negative;
       ++k;
@@ -39,22 +37,59 @@ int negative_eigenvalues(MatrixXd a, double rounding) {
   return negative;
 }
 
-/// Is a factorised matrix singular but for the error that Newton's method has left? A neutral motion's pivot is as small
-/// as that.
+/// What a neutral motion leaves of a pivot, as a part of the largest: the error that Newton's method has left.
+constexpr double nearly_zero = 1e-7;
+
+/// What rounding leaves of forces out of the plane of a flat rod.
+constexpr double nothing = 1e-8;
+
 bool is_singular(const Eigen::PartialPivLU<MatrixXd>& lu) {
-  constexpr double left = 1e-7;
   const auto pivots = lu.matrixLU().diagonal().cwiseAbs();
-  return pivots.minCoeff() < left * pivots.maxCoeff();
+  return pivots.minCoeff() < nearly_zero * pivots.maxCoeff();
 }
 
-/// A singular matrix with its null vector v and left null vector u made regular: its solutions are those of the
-/// singular system, without a part along v, so that Newton does not wander along a neutral motion.
-MatrixXd without_neutral_motion(const MatrixXd& singular) {
+/// The vector of a null space (orthonormal columns) with the least part in the rows of location conditions.
+/// @param locations  those rows, −1: none
+struct Least {
+  Least(const MatrixXd& null_space, const std::vector<Eigen::Index>& locations) {
+    MatrixXd part = MatrixXd::Zero(static_cast<Eigen::Index>(locations.size()), null_space.cols());
+    for (std::size_t j = 0; j < locations.size(); ++j)
+      if (locations[j] >= 0) part.row(static_cast<Eigen::Index>(j)) = null_space.row(locations[j]);
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(part.transpose() * part);
+    vector = null_space * eigen.eigenvectors().col(0);
+    constexpr double little = 0.1;
+    is_turn = std::sqrt(std::abs(eigen.eigenvalues()(0))) < little * vector.cwiseAbs().maxCoeff();
+  }
+  VectorXd vector;
+  bool
+      is_turn;  ///< a turn of a flat rod moves no contact along it; the rest is a touch about to flatten or to leave
+};
+
+/// A matrix that a neutral turn v makes singular, made regular with v and the left null vector u: its solutions are those
+/// of the singular system, without a part along v, so that Newton does not wander along it.
+MatrixXd without_turn(const MatrixXd& singular, const std::vector<Eigen::Index>& locations) {
   const Eigen::JacobiSVD<MatrixXd> svd(singular, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const VectorXd u = svd.matrixU().rightCols<1>(), v = svd.matrixV().rightCols<1>();
+  const double largest = svd.singularValues()(0);
+  const Eigen::Index nullity = (svd.singularValues().array() < nearly_zero * largest).count();
+  if (nullity == 0) return singular;
+  const Least left(svd.matrixU().rightCols(nullity), locations);
+  if (!left.is_turn) return singular;
+  const VectorXd u = left.vector, v = Least(svd.matrixV().rightCols(nullity), locations).vector;
   // The determinant's sign must not depend on that of u.
   const double orientation = u.dot(v) < 0.0 ? -1.0 : 1.0;
-  return singular + orientation * svd.singularValues()(0) * u * v.transpose();
+  return singular + orientation * largest * u * v.transpose();
+}
+
+/// Eigenvalues below zero, without one that is zero up to rounding and belongs to the turn.
+int negative_but_turn(const MatrixXd& dense, const std::vector<Eigen::Index>& locations) {
+  constexpr double rounding = 1e-10;
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(dense);
+  const VectorXd& values = eigen.eigenvalues();
+  const double zero = rounding * values.cwiseAbs().maxCoeff();
+  int negative = 0;
+  for (Eigen::Index k = 0; k < values.size() && values(k) < 0.0; ++k)
+    negative += values(k) < -zero || !Least(eigen.eigenvectors().col(k), locations).is_turn;
+  return negative;
 }
 
 }  // namespace
@@ -97,8 +132,9 @@ Chain::Local Chain::local(Purpose purpose, const Numbering& numbering, const Vec
     }
   };
   const auto arclength_of = [&](int joint, double sign, Side arc_side, int first_end) {
-    if (numbering.arclength[joint] < 0) return;
-    l.dofs.push_back(numbering.arclength[joint]);
+    if (numbering.location[joint] < 0) return;
+    if (purpose == Purpose::equilibrium && !joints_[joint]->locates()) return;
+    l.dofs.push_back(numbering.location[joint]);
     l.columns(ends - 1, k) = sign;
     if (purpose != Purpose::equilibrium) {
       l.rows(ends - 1, k) = sign;
@@ -151,10 +187,20 @@ void Chain::add_joint_terms(Purpose purpose, const Numbering& numbering, const V
 
 void Chain::add_locations(const VectorXd& x, MatrixXd& dense) const {
   for (int j = 0; j < joint_count(); ++j) {
-    const Eigen::Index row = numbering_.arclength[j];
+    const Eigen::Index row = numbering_.location[j];
     if (row < 0) continue;
     dense.row(row).segment(numbering_.coordinate[j], joints_[j]->tangent()) +=
         location(x, j).by_w.transpose();
+    if (joints_[j]->held()) dense(numbering_.coordinate[j], row) += 1.0;
+  }
+}
+
+void Chain::add_pins(const Numbering& numbering, const VectorXd& x, MatrixXd& dense) const {
+  for (int j = 0; j < joint_count(); ++j) {
+    const Eigen::Index row = numbering.pin[j], first = numbering.coordinate[j], s = numbering.location[j];
+    if (row < 0) continue;
+    dense(row, first) = dense(first, row) = 1.0;
+    dense(row, s) = dense(s, row) = -joints_[j]->slide(coordinates(x, j));
   }
 }
 
@@ -168,6 +214,9 @@ void Chain::factor(const VectorXd& x, const Loads& loads, const MatrixXd& b, con
     links_[i].arc->factor(placed[i].point(), condensed_[i]);
   }
   borders_ = d.rows();
+  flat_ = is_flat(placed);
+  for (Eigen::Index j = 0; j < borders_; ++j)
+    flat_ = flat_ && outside(b.col(j)) < nothing && outside(c.col(j)) < nothing;
   const Eigen::Index n = dense_size_, k = borders_;
   MatrixXd dense = MatrixXd::Zero(n + k, n + k);
   for (int i = 0; i < link_count(); ++i) {
@@ -202,7 +251,8 @@ void Chain::factor(const VectorXd& x, const Loads& loads, const MatrixXd& b, con
   if (!dense.allFinite()) throw std::domain_error("the chain's matrix is not finite");
   if (dense.rows() > 0) dense_.compute(dense);
   const bool may_turn = neutral_turn_ && (!half() || *neutral_turn_ == Parity::even);
-  if (may_turn && dense.rows() > 0 && is_singular(dense_)) dense_.compute(without_neutral_motion(dense));
+  if (may_turn && dense.rows() > 0 && is_singular(dense_))
+    dense_.compute(without_turn(dense, numbering_.location));
   int negative = 0;
   for (const Link& link : links_) negative += link.arc->negative_pivots();
   determinant_sign_ = negative % 2 == 0 ? 1 : -1;
@@ -266,6 +316,8 @@ VectorXd Chain::solve(const VectorXd& f, const VectorXd& g, bool transposed) con
   if (k > 0) x.tail(size_ - n) -= column.bottomRows(size_ - n) * y.tail(k);
   x.head(n) = y.head(n);
   expand(x, transposed);
+  if (flat_ && outside(f) < nothing)
+    for (const Eigen::Index at : outside_) x(at) = 0.0;
   out.head(size_) = x;
   out.tail(k) = y.tail(k);
   return out;
@@ -276,6 +328,7 @@ MatrixXd Chain::variation_matrix(Purpose purpose, const Numbering& numbering, co
   MatrixXd dense = MatrixXd::Zero(numbering.size, numbering.size);
   for (int i = 0; i < link_count(); ++i)
     add_joint_terms(purpose, numbering, x, loads, i, gradients_[i], dense);
+  add_pins(numbering, x, dense);
   return dense;
 }
 
@@ -296,8 +349,8 @@ int Chain::index(const VectorXd& x, const Loads& loads, Parity parity) const {
       for (std::size_t s = 0; s < l.dofs.size(); ++s) dense(l.dofs[r], l.dofs[s]) += share(r, s);
   }
   dense = (0.5 * (dense + dense.transpose())).eval();
-  const double neutral = neutral_turn_ ? 1e-10 : 0.0;
-  return negative + negative_eigenvalues(dense, neutral) - numbering.constraints;
+  negative += neutral_turn_ ? negative_but_turn(dense, numbering.location) : negative_eigenvalues(dense);
+  return negative - numbering.constraints;
 }
 
 }  // namespace windlass::chain

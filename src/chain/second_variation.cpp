@@ -69,7 +69,7 @@ Sparse Chain::material_metric(const Numbering& numbering, const Placed& placed, 
   const Arc& arc = *links_[link].arc;
   const VectorXd mass = arc.metric(placed.point());
   Sparse material = map;
-  const Eigen::Index left = numbering.arclength[link], right = numbering.arclength[link + 1];
+  const Eigen::Index left = numbering.location[link], right = numbering.location[link + 1];
   const bvp::ArcSamples samples = left >= 0 || right >= 0 ? arc.sample(placed.point()) : bvp::ArcSamples{};
   if (samples.slope.size() > 0) {
     const int d = arc.tangent(), interior = arc.interior_tangent();

@@ -101,19 +101,19 @@ std::unique_ptr<Arc> make_arc(const RodKind& rod, Stretch stretch, const ArcMesh
                                    mesh.stages);
 }
 
-/// Parity, under the half-turn, of a turn of the whole rod that costs nothing: a flat loop between two touches turns about
-/// the pulls that lie along one line, a bight hung over one touch about the normal there if the pulls are parallel. A line
-/// contact alone is about to become one of the two.
+/// Parity, under the half-turn, of a turn of the whole rod that costs nothing: a flat rod on isolated touches turns about
+/// the pulls if they lie along one line, or about their direction, the normal of its mid-point, if they are parallel. A line
+/// contact alone is about to become isolated touches. Clamped ends turn with their rod only about one line.
 std::optional<contact::Parity> neutral_turn(const RodKind& rod, const Topology& t) {
   const double half_turns = rod.pull_angle / M_PI, whole = std::round(half_turns);
   constexpr double nearly = 1e-5;  // there too the turn costs too little to be told from rounding
   if (!(std::abs(half_turns - whole) < nearly)) return std::nullopt;
   const std::vector<Stretch> all = stretches(t);
   const auto has = [&](Stretch kind) { return std::find(all.begin(), all.end(), kind) != all.end(); };
-  if (std::remainder(whole, 2.0) == 0.0 && !(has(Stretch::line) && has(Stretch::gap)))
-    return contact::Parity::odd;
-  if (whole == 1.0 && !has(Stretch::gap)) return contact::Parity::even;
-  return std::nullopt;
+  if (has(Stretch::line) && has(Stretch::gap)) return std::nullopt;
+  if (std::remainder(whole, 2.0) == 0.0)
+    return rod.clamped && !rod.isotropic_straight() ? std::nullopt : std::optional(contact::Parity::odd);
+  return rod.clamped ? std::nullopt : std::optional(contact::Parity::even);
 }
 
 }  // namespace

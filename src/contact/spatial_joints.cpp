@@ -34,6 +34,18 @@ Attachment sized(int configuration, int tangent, int position, int coordinates) 
   return at;
 }
 
+/// Tangency d₃·N(a) = 0 with its derivatives.
+struct Tangency {
+  Tangency(double a, const rod::Quaternion& q) {
+    const Eigen::Matrix3d r = rod::directors(q);
+    value = r.col(2).dot(outward(a));
+    by_angle = r.col(2).dot(along(a));
+    by_spin = 2.0 * Vector3d::UnitZ().cross(r.transpose() * outward(a));
+  }
+  double value, by_angle;
+  Vector3d by_spin;  ///< per half rotation vector in the body frame
+};
+
 }  // namespace
 
 rod::Quaternion surface_frame(double a, double psi, double chi) {
@@ -74,13 +86,12 @@ void Touch::curvature(Side, const double* w, const Loads&, const SmallVector&, c
 }
 
 Joint::Location Touch::location(const double* w, const SmallVector&, const SmallVector&) const {
-  const Eigen::Matrix3d r = rod::directors(Eigen::Map<const Eigen::Vector4d>(w + 2));
+  const Tangency t(w[0], Eigen::Map<const Eigen::Vector4d>(w + 2));
   Location c;
-  c.value = r.col(2).dot(outward(w[0]));
+  c.value = t.value;
   c.by_w = SmallVector::Zero(tangent());
-  c.by_w(0) = r.col(2).dot(along(w[0]));
-  const Vector3d normal_body = r.transpose() * outward(w[0]);
-  c.by_w.tail(3) = 2.0 * Vector3d::UnitZ().cross(normal_body);
+  c.by_w(0) = t.by_angle;
+  c.by_w.tail(3) = t.by_spin;
   return c;
 }
 
@@ -206,6 +217,16 @@ Attachment MarkerTouch::attach(Side, const double* w, const Loads&) const {
 void MarkerTouch::curvature(Side, const double* w, const Loads&, const SmallVector&, const SmallVector& f,
                             SmallMatrix& out) const {
   out(0, 0) -= f.dot(outward(w[0]));
+}
+
+Joint::Location MarkerTouch::location(const double* w, const SmallVector&, const SmallVector&) const {
+  const Tangency t(w[0], Eigen::Map<const Eigen::Vector4d>(w + 1));
+  Location c;
+  c.value = t.value;
+  c.by_w = SmallVector::Zero(tangent());
+  c.by_w(0) = t.by_angle;
+  c.by_w.tail(tangent() - 1) = t.by_spin.head(tangent() - 1);
+  return c;
 }
 
 void MarkerTouch::retract(const double* w, const double* dw, double* out) const {

@@ -44,7 +44,7 @@ chain::RodKind rod_of(const scene::Scene& scene, bool spatial) {
   rod.infinite = scene.rod.infinite();
   rod.strut = !scene.has_cylinder;
   rod.under_thrust = !scene.ends.shortening.has_value();
-  if (spatial && scene.has_cylinder && !rod.clamped) rod.pull_angle = scene.load.angle;
+  if (spatial && scene.has_cylinder) rod.pull_angle = scene.load.angle;
   rod.bending_stiffness = scene.rod.bending_stiffness;
   rod.stiffness = {scene.rod.bending_stiffness, scene.rod.bending_stiffness_2,
                    scene.rod.twist_ratio * scene.rod.bending_stiffness};

@@ -152,8 +152,9 @@ std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const 
   constexpr int most_together = 5;
   try {
     Entry exact = guess;
-    const auto found =
-        event.kind == Kind::length ? locate_from_beyond(exact, event.s + 0.5 * least_length) : std::nullopt;
+    const bool vanishes =
+        event.kind == Kind::length || (event.kind == Kind::curvature && next.opened.empty());
+    const auto found = vanishes ? locate_from_beyond(exact, event.s + 0.5 * least_length) : std::nullopt;
     if (found && holds(exact)) {
       precision = *found;
       return exact;

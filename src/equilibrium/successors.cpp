@@ -140,6 +140,11 @@ std::vector<Successor> after_curvature(const ContactEvent& event, const Strip& s
       return part >= 0 && part < static_cast<int>(strip.parts.size()) &&
              strip.parts[part].kind == Stretch::line;
     };
+    // Two touches that meet become one. Their curvature vanishes with the gap, whichever is seen first.
+    constexpr double shortest = 0.05;
+    Strip met = strip;
+    if (!is_line(i - 1) && !is_line(i + 1) && strip.s[i + 1] - strip.s[i] < shortest && met.collapse(i))
+      out.push_back(met.successor());
     Strip closed = strip;
     closed.merge(is_line(i - 1) ? i - 1 : i, is_line(i + 1) ? i + 1 : i, Stretch::line);
     out.push_back(closed.successor());

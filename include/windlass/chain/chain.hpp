@@ -28,8 +28,8 @@ struct Link {
 
 /// Layout of a chain's unknowns.
 ///
-/// State x (ambient): for each joint its coordinates and, where it locates itself, its arclength s; for each link with
-/// unknown n that n; then the interior configurations of every arc. Increments dx follow the same order with tangent
+/// State x (ambient): for each joint its coordinates and, where it locates itself, its arclength s (where it is held, the
+/// force that holds it); for each link with unknown n that n; then the interior configurations of every arc. Increments dx follow the same order with tangent
 /// sizes. The first block (joints and forces, `dense_size()`) couples the arcs; the rest is condensed arc by arc.
 ///
 /// Count of equations, the same as of unknowns: a joint gives one balance equation a coordinate and one location
@@ -47,7 +47,9 @@ class Chain {
   /// Length of the leading part of an increment that holds joint coordinates and arclengths.
   Eigen::Index geometric_size() const { return geometric_size_; }
   /// Row of a joint's location condition, and place of its arclength in an increment; −1: it does not locate itself.
-  Eigen::Index arclength_row(int joint) const { return numbering_.arclength[joint]; }
+  Eigen::Index arclength_row(int joint) const {
+    return joints_[joint]->locates() ? numbering_.location[joint] : -1;
+  }
   int joint_count() const { return static_cast<int>(joints_.size()); }
   int link_count() const { return static_cast<int>(links_.size()); }
   const Joint& joint(int j) const { return *joints_[j]; }
@@ -79,9 +81,10 @@ class Chain {
 
   /// Factors [J B; Cᵀ D] at (x, loads); B, C: size()×k, D: k×k. @throws std::runtime_error if singular.
   void factor(const VectorXd& x, const Loads& loads, const MatrixXd& b, const MatrixXd& c, const MatrixXd& d);
-  /// A turn of the whole rod may cost nothing. Its eigenvalue then does not count as negative, and where it makes the matrix
+  /// A turn of the whole rod may cost nothing while it is flat. Its eigenvalue then does not count as negative, and where it makes the matrix
   /// singular (a half chain's only if the turn is even) solutions have no part along it.
   void expect_neutral_turn(contact::Parity parity) { neutral_turn_ = parity; }
+  /// A flat rod that nothing pushes out of its plane stays there, exactly, however little that would cost.
   VectorXd solve(const VectorXd& f, const VectorXd& g, bool transposed = false) const;
   int determinant_sign() const { return determinant_sign_; }
 
@@ -120,9 +123,11 @@ class Chain {
     MatrixXd columns;                ///< ends × dofs: change of the arc's ends per unknown
     MatrixXd rows;                   ///< ends × dofs: weights of the end equations in each dense equation
   };
-  /// Places of joint coordinates, arclengths and forces in a dense block.
+  /// Places of joint coordinates, of the unknowns of location conditions, and of forces in a dense block. The first are
+  /// contacts' arclengths; in equilibrium a held touch has its holding force there, in variations its arclength, and a pin
+  /// that keeps the rod from sliding.
   struct Numbering {
-    std::vector<Eigen::Index> coordinate, arclength, force;  ///< arclength, force: −1 where absent
+    std::vector<Eigen::Index> coordinate, location, pin, force;  ///< −1 where absent
     Eigen::Index size = 0, geometric = 0;
     int constraints = 0;  ///< multipliers and touch locations: one negative direction each
   };
@@ -136,6 +141,7 @@ class Chain {
   void add_joint_terms(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads,
                        int link, const bvp::EndsVector& gradient, MatrixXd& dense) const;
   void add_locations(const VectorXd& x, MatrixXd& dense) const;
+  void add_pins(const Numbering& numbering, const VectorXd& x, MatrixXd& dense) const;
   contact::Joint::Location location(const VectorXd& x, int joint) const;
   /// Condensed Hessian plus the part that is antisymmetric because frames do not commute.
   static bvp::EndsMatrix with_commutator(const Arc& arc, const bvp::EndsMatrix& symmetric,
@@ -148,6 +154,12 @@ class Chain {
   Eigen::SparseMatrix<double> sparse_hessian(Purpose purpose, const Placed& placed, int link) const;
   MatrixXd variation_matrix(Purpose purpose, const Numbering& numbering, const VectorXd& x,
                             const Loads& loads) const;
+
+  /// Places in an increment that move a flat rod out of its plane.
+  std::vector<Eigen::Index> out_of_plane() const;
+  bool is_flat(const std::vector<Placed>& placed) const;
+  /// Largest entry of a vector at those places.
+  double outside(const VectorXd& f) const;
 
   void reduce(VectorXd& f, bool transposed) const;
   void expand(VectorXd& f, bool transposed) const;
@@ -162,6 +174,7 @@ class Chain {
   Eigen::Index ambient_size_ = 0, size_ = 0, dense_size_ = 0, geometric_size_ = 0;
 
   Numbering numbering_;
+  std::vector<Eigen::Index> outside_;  ///< see out_of_plane()
 
   // Last factorisation.
   std::vector<Local> locals_;
@@ -172,6 +185,7 @@ class Chain {
   Eigen::PartialPivLU<MatrixXd> dense_;
   Eigen::Index borders_ = 0;
   int determinant_sign_ = 0;
+  bool flat_ = false;  ///< the rod, and the borders in its plane
   std::optional<contact::Parity> neutral_turn_;
 };
 

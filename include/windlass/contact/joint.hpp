@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "windlass/bvp/arc.hpp"
 
@@ -56,6 +57,11 @@ class Joint {
   virtual int ambient() const = 0;                ///< stored coordinates
   virtual int tangent() const = 0;                ///< degrees of freedom
   virtual bool locates() const { return false; }  ///< is the arclength of this joint unknown?
+  /// A touch whose arclength is held, s = 0, so that the rod does not slide along itself. Tangency is an equation all the
+  /// same; the force that holds the rod, along the first coordinate, is its unknown (zero where sliding costs nothing).
+  virtual bool held() const { return false; }
+  /// Of a held touch: change of its first coordinate with the arclength, as the rod slides along itself.
+  virtual double slide(const double* w) const { return (void)w, 1.0; }
 
   virtual Attachment attach(Side side, const double* w, const Loads& loads) const = 0;
 
@@ -64,6 +70,9 @@ class Joint {
                          const SmallVector& f, SmallMatrix& out) const {
     (void)side, (void)w, (void)loads, (void)g_q, (void)f, (void)out;
   }
+
+  /// Degrees of freedom that move a flat rod out of its plane z = 0: zero, by symmetry, as long as nothing pushes.
+  virtual std::vector<int> out_of_plane() const { return {}; }
 
   /// Location condition c(w, g_q) = 0, g_q the action gradient of the free arc at this end.
   struct Location {

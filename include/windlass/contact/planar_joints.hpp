@@ -35,11 +35,14 @@ class Touch : public VectorJoint {
   void adopt(const Place& place, double* w) const override { w[0] = place.angle, w[1] = place.heading; }
 };
 
-/// The mid-point of a full chain on a touch: sliding is held, s = 0, and tangency follows, because a rod free to slide
-/// under equal pulls has the same H = n·t + m²/2B left and right of the touch, whose force then does no work.
+/// The mid-point of a full chain on a touch: s = 0, and the force that holds it there is unknown. (Balance would give
+/// tangency, because a rod free to slide under equal pulls has the same H = n·t + m²/2B left and right of the touch; but
+/// only as far as the touch's force is not zero.)
 class MarkerTouch final : public Touch {
  public:
   bool locates() const override { return false; }
+  bool held() const override { return true; }
+  double slide(const double* w) const override { return location(w, {}, {}).by_w(0); }
 };
 
 /// End of a line contact: w = (a), arclength unknown.
@@ -109,6 +112,7 @@ class MidTouch final : public VectorJoint {
  public:
   JointKind kind() const override { return JointKind::touch; }
   int tangent() const override { return 0; }
+  bool held() const override { return true; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   Attachment attach_odd(const double* w, const Loads& loads) const override;
   void curvature_odd(const double* w, const SmallVector& f, SmallMatrix& out) const override;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "windlass/contact/joint.hpp"
 #include "windlass/rod/quaternion.hpp"
 
@@ -31,6 +33,7 @@ class Touch final : public Joint {
   JointKind kind() const override { return JointKind::touch; }
   int ambient() const override { return 6; }
   int tangent() const override { return 5; }
+  std::vector<int> out_of_plane() const override { return {1, 2, 4}; }
   bool locates() const override { return true; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
@@ -51,6 +54,7 @@ class Edge final : public VectorJoint {
   JointKind kind() const override { return JointKind::edge; }
   int ambient() const override { return 4; }
   int tangent() const override { return 4; }
+  std::vector<int> out_of_plane() const override { return {1, 2, 3}; }
   bool locates() const override { return true; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
@@ -75,6 +79,7 @@ class MidLine final : public VectorJoint {
   explicit MidLine(bool twist_held) : twist_held_(twist_held) {}
   JointKind kind() const override { return JointKind::mid; }
   int tangent() const override { return 1; }
+  std::vector<int> out_of_plane() const override { return {0}; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   Attachment attach_odd(const double* w, const Loads& loads) const override;
   void adopt(const Place& place, double* w) const override;
@@ -90,6 +95,7 @@ class MarkerLine final : public VectorJoint {
   explicit MarkerLine(bool twist_held) : twist_held_(twist_held) {}
   JointKind kind() const override { return JointKind::marker; }
   int tangent() const override { return twist_held_ ? 2 : 1; }
+  std::vector<int> out_of_plane() const override { return twist_held_ ? std::vector{0, 1} : std::vector{0}; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   void adopt(const Place& place, double* w) const override;
 
@@ -105,6 +111,9 @@ class MarkerGap final : public Joint {
   JointKind kind() const override { return JointKind::marker; }
   int ambient() const override { return along_ ? 6 : 5; }
   int tangent() const override { return (along_ ? 2 : 1) + (twist_held_ ? 3 : 2); }
+  std::vector<int> out_of_plane() const override {
+    return twist_held_ ? std::vector{places(), places() + 2} : std::vector{places()};
+  }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   void retract(const double* w, const double* dw, double* out) const override;
   void adopt(const Place& place, double* w) const override;
@@ -115,14 +124,18 @@ class MarkerGap final : public Joint {
 };
 
 /// The mid-point of a full chain on a touch: w = (a, q), with s = z = 0 held, and the spin about d₃ unless twist is held.
-/// 4 or 3 degrees of freedom; tangency follows (see contact::planar::MarkerTouch).
+/// 4 or 3 degrees of freedom, and the holding force (see contact::planar::MarkerTouch).
 class MarkerTouch final : public Joint {
  public:
   explicit MarkerTouch(bool twist_held) : twist_held_(twist_held) {}
   JointKind kind() const override { return JointKind::touch; }
   int ambient() const override { return 5; }
   int tangent() const override { return twist_held_ ? 4 : 3; }
+  std::vector<int> out_of_plane() const override { return twist_held_ ? std::vector{1, 3} : std::vector{1}; }
+  bool held() const override { return true; }
+  double slide(const double* w) const override { return location(w, {}, {}).by_w(0); }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
+  Location location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const override;
   void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
                  SmallMatrix& out) const override;
   void retract(const double* w, const double* dw, double* out) const override;
@@ -147,6 +160,7 @@ class MidGap final : public VectorJoint {
   explicit MidGap(OddFreedom odd) : odd_(odd) {}
   JointKind kind() const override { return JointKind::mid; }
   int tangent() const override { return 2; }
+  std::vector<int> out_of_plane() const override { return {1}; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   Attachment attach_odd(const double* w, const Loads& loads) const override;
   /// The phase condition: a spring against turning about e_x. That motion is a rigid one, so any stiffness leaves the
@@ -164,6 +178,9 @@ class MidTouch final : public VectorJoint {
   explicit MidTouch(bool twist_held) : twist_held_(twist_held) {}
   JointKind kind() const override { return JointKind::touch; }
   int tangent() const override { return 1; }
+  std::vector<int> out_of_plane() const override { return {0}; }
+  bool held() const override { return true; }
+  double slide(const double* w) const override { return std::cos(w[0]); }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   Attachment attach_odd(const double* w, const Loads& loads) const override;
   void curvature_odd(const double* w, const SmallVector& f, SmallMatrix& out) const override;
@@ -180,6 +197,7 @@ class End final : public Joint {
   JointKind kind() const override { return JointKind::end; }
   int ambient() const override { return clamped_ ? 0 : 4; }
   int tangent() const override { return clamped_ ? 0 : 3; }
+  std::vector<int> out_of_plane() const override { return clamped_ ? std::vector<int>{} : std::vector{0, 2}; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   void retract(const double* w, const double* dw, double* out) const override;
   void adopt(const Place& place, double* w) const override;
