@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -37,15 +38,22 @@ int negative_eigenvalues(MatrixXd a) {
   return negative;
 }
 
-/// What a neutral motion leaves of a pivot, as a part of the largest: the error that Newton's method has left.
-constexpr double nearly_zero = 1e-7;
+/// What a neutral motion leaves of a pivot, as a part of the others: the error that Newton's method has left.
+constexpr double nearly_zero = 1e-6;
 
 /// What rounding leaves of forces out of the plane of a flat rod.
 constexpr double nothing = 1e-8;
 
+/// Size of the entries in the middle: an arc that is singular by itself leaves one of 1e10.
+double median(VectorXd values) {
+  const auto middle = values.begin() + values.size() / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 bool is_singular(const Eigen::PartialPivLU<MatrixXd>& lu) {
-  const auto pivots = lu.matrixLU().diagonal().cwiseAbs();
-  return pivots.minCoeff() < nearly_zero * pivots.maxCoeff();
+  const VectorXd pivots = lu.matrixLU().diagonal().cwiseAbs();
+  return pivots.minCoeff() < nearly_zero * median(pivots);
 }
 
 /// The vector of a null space (orthonormal columns) with the least part in the rows of location conditions.
@@ -69,27 +77,28 @@ struct Least {
 /// of the singular system, without a part along v, so that Newton does not wander along it.
 MatrixXd without_turn(const MatrixXd& singular, const std::vector<Eigen::Index>& locations) {
   const Eigen::JacobiSVD<MatrixXd> svd(singular, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const double largest = svd.singularValues()(0);
-  const Eigen::Index nullity = (svd.singularValues().array() < nearly_zero * largest).count();
+  const double usual = median(svd.singularValues());
+  const Eigen::Index nullity = (svd.singularValues().array() < nearly_zero * usual).count();
   if (nullity == 0) return singular;
   const Least left(svd.matrixU().rightCols(nullity), locations);
   if (!left.is_turn) return singular;
   const VectorXd u = left.vector, v = Least(svd.matrixV().rightCols(nullity), locations).vector;
   // The determinant's sign must not depend on that of u.
   const double orientation = u.dot(v) < 0.0 ? -1.0 : 1.0;
-  return singular + orientation * largest * u * v.transpose();
+  return singular + orientation * usual * u * v.transpose();
 }
 
-/// Eigenvalues below zero, without one that is zero up to rounding and belongs to the turn.
+/// Eigenvalues below zero, without one that is zero up to rounding and belongs to the turn. An arc that is singular by
+/// itself leaves an entry as large as 1e10, and its rounding to the others.
 int negative_but_turn(const MatrixXd& dense, const std::vector<Eigen::Index>& locations) {
-  constexpr double rounding = 1e-10;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(dense);
   const VectorXd& values = eigen.eigenvalues();
-  const double zero = rounding * values.cwiseAbs().maxCoeff();
-  int negative = 0;
-  for (Eigen::Index k = 0; k < values.size() && values(k) < 0.0; ++k)
-    negative += values(k) < -zero || !Least(eigen.eigenvectors().col(k), locations).is_turn;
-  return negative;
+  const double zero = 3e-9 + 1e-14 * values.cwiseAbs().maxCoeff();
+  const auto negative = (values.array() < 0.0).count();
+  if (negative == 0) return 0;
+  const bool turns =
+      values(negative - 1) > -zero && Least(eigen.eigenvectors().col(negative - 1), locations).is_turn;
+  return static_cast<int>(negative) - turns;
 }
 
 }  // namespace

@@ -23,15 +23,21 @@ Eigen::Vector3d outward_normal(const Eigen::Vector3d& r) {
 
 namespace {
 
-/// Distance of a section from the cylinder and its rate along the rod.
+/// Distance of a section from the cylinder with its first and second derivative along the rod.
 struct Gap {
-  double value, rate;
+  double value, rate, bend = 0.0;
+  Gap(double v, double r) : value(v), rate(r) {}
   explicit Gap(const Section& x)
       : value(std::hypot(x.r.x(), x.r.y()) - 1.0), rate(outward_normal(x.r).dot(tangent(x))) {}
+  Gap(const Section& x, const Stiffness& law) : Gap(x) {
+    const Eigen::Matrix3d d = rotation(x.q);
+    const Eigen::Vector3d t = d.col(2), slope = (d * law.strain(x)).cross(t);
+    bend = outward_normal(x.r).dot(slope) + (t.head<2>().squaredNorm() - rate * rate) / (1.0 + value);
+  }
 };
 
-/// Smallest value between two places a step h apart of the cubic with the given values and rates at both.
-double smallest_between(const Gap& a, const Gap& b, double h) {
+/// Smallest value of the cubic with the given values and rates at two places a step h apart.
+double smallest_of_cubic(const Gap& a, const Gap& b, double h) {
   double smallest = std::min(a.value, b.value);
   if (a.rate >= 0.0 || b.rate <= 0.0) return smallest;  // no dip inside
   // cubic in x = s/h: value + A x + B x² + C x³; its rate A + 2B x + 3C x² vanishes where it dips
@@ -41,6 +47,28 @@ double smallest_between(const Gap& a, const Gap& b, double h) {
   const double root = std::sqrt(std::max(0.0, B * B - 3.0 * A * C));
   const double x = B >= 0.0 ? -A / (B + root) : (root - B) / (3.0 * C);
   if (x > 0.0 && x < 1.0) smallest = std::min(smallest, a.value + x * (A + x * (B + x * C)));
+  return smallest;
+}
+
+/// Smallest value between two places: of the quintic through both, in parts. A cubic from place to place would dip where
+/// the gap leaves a touch with its fourth power, as it does when the touch is about to flatten.
+double smallest_between(const Gap& a, const Gap& b, double h) {
+  constexpr int parts = 8;
+  const double c0 = a.value, c1 = h * a.rate, c2 = 0.5 * h * h * a.bend;
+  const double D = b.value - c0 - c1 - c2, E = h * b.rate - c1 - 2.0 * c2, F = h * h * b.bend - 2.0 * c2;
+  const double c3 = 10.0 * D - 4.0 * E + 0.5 * F, c4 = -15.0 * D + 7.0 * E - F,
+               c5 = 6.0 * D - 3.0 * E + 0.5 * F;
+  const auto at = [&](double x) {
+    return Gap(c0 + x * (c1 + x * (c2 + x * (c3 + x * (c4 + x * c5)))),
+               (c1 + x * (2.0 * c2 + x * (3.0 * c3 + x * (4.0 * c4 + x * 5.0 * c5)))) / h);
+  };
+  double smallest = std::min(a.value, b.value);
+  Gap last(a.value, a.rate);
+  for (int k = 1; k <= parts; ++k) {
+    const Gap next = k == parts ? Gap(b.value, b.rate) : at(static_cast<double>(k) / parts);
+    smallest = std::min(smallest, smallest_of_cubic(last, next, h / parts));
+    last = next;
+  }
   return smallest;
 }
 
@@ -77,7 +105,7 @@ void look_along(const std::vector<Section>& sections, double h, ArcKind kind, bo
       found.off_surface.add(std::abs(Gap(sections[k]).value));
       found.smallest_pressure.add(surface_pressure(sections[k], law.K[0]) / scales.force);
     } else if (has_cylinder) {
-      found.gap.add(smallest_between(Gap(sections[k - 1]), Gap(sections[k]), h));
+      found.gap.add(smallest_between(Gap(sections[k - 1], law), Gap(sections[k], law), h));
     }
   }
 }
