@@ -131,9 +131,9 @@ bool Walker::enter(const Transition& transition, int direction, const std::strin
     values.push_back(beside);
     if (beside != here) direction = beside < here ? -1 : 1;  // away from the event
   }
+  values.push_back(here);
   for (const int sign : {direction, -direction}) {
-    for (const double size : {1e-4, 1e-3, 1e-5, 1e-2, 1e-6}) values.push_back(here + sign * size * step);
-    if (sign == direction) values.push_back(here);
+    for (const double size : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) values.push_back(here + sign * size * step);
   }
   failure = "the new problem has no solution here";
   for (const double value : values) {

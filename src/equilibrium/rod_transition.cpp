@@ -32,8 +32,14 @@ Entry draft(const RodProblem& from, const Successor& next, const chain::Profile&
   std::vector<chain::ArcMesh> meshes;
   for (int source : next.source)
     meshes.push_back(from.meshes().empty() ? chain::ArcMesh{} : from.meshes()[source]);
-  for (auto& mesh : meshes)
-    if (mesh.nodes.size() <= elements) mesh.nodes = chain::uniform_mesh(elements);  // was a closed form
+  const std::vector<chain::Stretch> before = chain::stretches(from.topology()),
+                                    now = chain::stretches(next.topology);
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    if (meshes[i].nodes.size() > elements && before[next.source[i]] == now[i]) continue;
+    // Was a closed form, or a smooth line of several turns.
+    const double length = std::min(std::abs(next.s[i + 1] - next.s[i]), 40.0);
+    meshes[i].nodes = chain::uniform_mesh(std::max(elements, static_cast<int>(std::ceil(length))));
+  }
   for (int link : next.opened) meshes[link].nodes = chain::uniform_mesh(elements);
   const scene::Scene scene = from.scene_at(p);
   choose_tails(meshes, next.topology, from.rod(), loads_of(scene), next.s);
