@@ -84,13 +84,15 @@ void settle_shape(RodProblem& problem, Vector& x, Vector& p, const std::vector<i
 
 bool solve_at_length(RodProblem& problem, Vector& x, Vector& p, int link, double length) {
   double last = 1e300;
+  int stalls = 0;
   for (int k = 0; k < 20; ++k) {
     const contact::Loads at = problem.loads(p);
     const double now = problem.chain().arclength(x, at, link + 1) - problem.chain().arclength(x, at, link);
     const Vector goal = Vector::Constant(1, length - now);
     const double step = newton_step(problem, x, p, fix_length(problem, x, p, link), goal, true);
     // Converged, or as far as rounding lets a short arc: the increment is tiny and no longer falls.
-    if (step < 1e-12 || (step < 1e-7 && step > 0.3 * last)) return true;
+    if (step < 1e-5 && step > 0.3 * last) ++stalls;
+    if (step < 1e-12 || stalls >= (step < 1e-7 ? 1 : 3)) return true;
     last = step;
   }
   return false;
