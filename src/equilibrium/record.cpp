@@ -87,6 +87,24 @@ JointRecord contact_record(const chain::Contact& c, double sign) {
   return joint;
 }
 
+/// Jump of the internal force at the mid-point that no contact makes, along the rod there. Zero where it is rounding.
+double holding_force(const ArcRecord& before, const ArcRecord& after, bool touch) {
+  constexpr double rounding = 1e-12;
+  const Vector3d n = before.n.rightCols<1>(), r = after.r.col(0);
+  const Vector3d along = touch ? Vector3d(-r(1), r(0), 0.0).normalized() : Vector3d(Vector3d::UnitX());
+  const double force = (n - after.n.col(0)).dot(along);
+  return std::abs(force) > rounding * std::max(1.0, n.norm()) ? force : 0.0;
+}
+
+JointRecord held_record(const ArcRecord& after, double holding) {
+  JointRecord joint;
+  joint.kind = JointKind::held;
+  joint.r = after.r.col(0);
+  joint.angle = after.kind == ArcKind::line ? 0.0 : std::atan2(joint.r(0), -joint.r(1));
+  joint.holding = holding;
+  return joint;
+}
+
 /// Arcs and joints of the whole rod from −L/2 to L/2.
 void assemble(const chain::Profile& shape, const Topology& topology, bool infinite, Solution& out) {
   const chain::Profile whole = topology.half ? chain::mirrored(shape) : shape;
@@ -97,8 +115,15 @@ void assemble(const chain::Profile& shape, const Topology& topology, bool infini
     for (std::size_t j = shape.contacts.size(); j-- > 0;)
       if (!(topology.mid_touch && j == 0)) contacts.push_back(contact_record(shape.contacts[j], -1.0));
   for (const chain::Contact& c : shape.contacts) contacts.push_back(contact_record(c, 1.0));
-  if (!topology.mid_touch) {  // the mid-point is no joint: its stretch spans both halves
-    const std::size_t marker = topology.half ? topology.right.size() : topology.left.size();
+  const std::size_t marker = topology.half ? topology.right.size() : topology.left.size();
+  const double holding =
+      topology.half ? 0.0 : holding_force(arcs[marker - 1], arcs[marker], topology.mid_touch);
+  if (topology.mid_touch) {
+    contacts[marker - 1].holding = holding;
+  } else if (holding != 0.0) {
+    contacts.insert(contacts.begin() + static_cast<std::ptrdiff_t>(marker - 1),
+                    held_record(arcs[marker], holding));
+  } else {  // the mid-point is no joint: its stretch spans both halves
     append(arcs[marker - 1], arcs[marker]);
     arcs.erase(arcs.begin() + static_cast<std::ptrdiff_t>(marker));
   }
@@ -134,7 +159,9 @@ void measure_invariants(Solution& out, const chain::RodKind& kind) {
   double h0 = 0.0, torque0 = 0.0;
   Vector3d balance = Vector3d::Zero();
   bool first = true;
-  for (const ArcRecord& arc : out.arcs) {
+  for (std::size_t i = 0; i < out.arcs.size(); ++i) {
+    const ArcRecord& arc = out.arcs[i];
+    first = first || out.joints[i].holding != 0.0;  // across it they change
     for (Eigen::Index k = 0; k < arc.s.size(); ++k) {
       const Eigen::Matrix3d d = rod::directors(arc.q.col(k));
       const Vector3d m = d.transpose() * arc.m.col(k);
@@ -150,8 +177,10 @@ void measure_invariants(Solution& out, const chain::RodKind& kind) {
     // Contact pressure carried by a line: the change of its internal force.
     if (arc.kind == ArcKind::line) balance += arc.n.col(arc.n.cols() - 1) - arc.n.col(0);
   }
-  for (const JointRecord& joint : out.joints)
+  for (const JointRecord& joint : out.joints) {
     balance -= joint.force * Vector3d(std::sin(joint.angle), -std::cos(joint.angle), 0.0);
+    balance -= joint.holding * joint.holding_direction();
+  }
   if (kind.strut) return;
   balance -= out.arcs.back().n.rightCols<1>() - out.arcs.front().n.col(0);
   out.invariants.force_residual = balance.norm();

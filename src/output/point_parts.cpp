@@ -60,6 +60,7 @@ void append_joint(PointColumns& columns, const JointRecord& joint, double neares
   columns.joints.angle.push_back(finite_or(joint.angle, 0.0));
   columns.joints.z.push_back(finite_or(joint.z, 0.0));
   columns.joints.force.push_back(finite_or(joint.force, 0.0));
+  columns.joints.holding.push_back(finite_or(joint.holding, 0.0));
   for (const double component : joint.r) columns.joints.r.push_back(finite_or(component, 0.0));
 }
 
@@ -71,6 +72,7 @@ JointRecord read_joint(const PointColumns& columns, std::size_t row) {
   joint.angle = joints.angle[row];
   joint.z = joints.z[row];
   joint.force = joints.force[row];
+  joint.holding = joints.holding[row];
   joint.r = block<3>(joints.r, static_cast<std::int64_t>(row), 1);
   return joint;
 }

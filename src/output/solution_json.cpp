@@ -22,6 +22,7 @@ namespace {
 constexpr std::pair<JointKind, const char*> joint_names[] = {{JointKind::end, "end"},
                                                              {JointKind::touch, "touch"},
                                                              {JointKind::edge, "edge"},
+                                                             {JointKind::held, "held"},
                                                              {JointKind::infinity, "infinity"}};
 }  // namespace
 
@@ -58,6 +59,7 @@ ordered_json contact_json(const Solution& solution) {
                                  {"angle", finite_or_null(joint.angle)},
                                  {"z", finite_or_null(joint.z)},
                                  {"force", finite_or_null(joint.force)}});
+    if (joint.holding != 0.0) contact["joints"].back()["holding"] = joint.holding;
   }
   return contact;
 }

@@ -15,9 +15,12 @@ class Drift {
     low_.add(value);
     high_.add(-value);
   }
-  double value() const { return -high_.value() - low_.value(); }
+  /// From here on another constant.
+  void restart() { widest_ = value(), low_ = {}, high_ = {}; }
+  double value() const { return low_.any() ? std::max(widest_, -high_.value() - low_.value()) : widest_; }
 
  private:
+  double widest_ = 0.0;
   Smallest low_, high_;
 };
 
@@ -28,7 +31,10 @@ void check_invariants(const Solution& solution, const scene::Scene& scene, const
   const Stiffness law(scene.rod);
   Drift hamiltonian, torque, axial_force, twist;
   Largest free_force;
-  for (const ArcRecord& arc : solution.arcs) {
+  for (std::size_t k = 0; k < solution.arcs.size(); ++k) {
+    const ArcRecord& arc = solution.arcs[k];
+    if (solution.joints[k].holding != 0.0)  // a force along the rod changes them
+      for (Drift* drift : {&hamiltonian, &torque, &axial_force}) drift->restart();
     for (Eigen::Index i = 0; i < arc.s.size(); ++i) {
       const Section x = sample(arc, i);
       hamiltonian.add(law.hamiltonian(x) / scales.force);

@@ -23,7 +23,7 @@ void check_joints(const Solution& solution, const scene::Scene&, const Scales& s
     position.add((joint.r - after.r).norm());
     frame.add(frame_distance(before.q, after.q));
     moment.add((before.m - after.m).norm() / scales.moment);
-    Vector3d jump = after.n - before.n;
+    Vector3d jump = after.n - before.n + joint.holding * joint.holding_direction();
     if (in_contact) {
       // balance of the joint: n(after) - n(before) + f N = 0
       jump += joint.force * outward_normal(after.r);
@@ -36,7 +36,8 @@ void check_joints(const Solution& solution, const scene::Scene&, const Scales& s
                "jump of r at joints, and against the joint's own r");
   list.at_most("joint_frame", frame.value(), tight, "jump of q at joints");
   list.at_most("joint_moment", moment.value(), tight, "jump of m at joints, / max(1, sqrt(T))");
-  list.at_most("joint_force", force.value(), tight, "jump of n plus contact force at joints, / max(1, T)");
+  list.at_most("joint_force", force.value(), tight,
+               "jump of n plus contact and holding force at joints, / max(1, T)");
   if (!contact.any()) return;
   list.at_least("point_force", contact.value(), -tight, "smallest contact point force, / max(1, T)");
   list.at_most("contact_position", surface.value(), tight, "distance of touches and edges from the cylinder");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ enum class JointKind {
   end,
   touch,
   edge,
+  held,  ///< the mid-point of a full chain, where a force holds the rod
   infinity
 };  ///< infinity: start of a closed-form infinite tail's far end
 
@@ -43,6 +45,13 @@ struct JointRecord {
   double z = 0.0;                               ///< [ρ]
   double force = 0.0;                           ///< size of the contact point force, >= 0 [EI/ρ²]
   Eigen::Vector3d r = Eigen::Vector3d::Zero();  ///< position [ρ]
+  /// Force that holds the rod's mid-point, on a touch along the circumference, else along e_x [EI/ρ²]. Two equal pulls
+  /// slide an asymmetric rod along itself unless its tails are infinite: a force of some T exp(−2√T L_tail).
+  double holding = 0.0;
+  Eigen::Vector3d holding_direction() const {
+    return kind == JointKind::touch ? Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0)
+                                    : Eigen::Vector3d::UnitX();
+  }
 };
 
 struct Invariants {

@@ -46,7 +46,7 @@ struct PointColumns {
     Reals s, r, q, n, m, p;
   } samples;
   struct Joints {
-    Reals s, angle, z, force, r;
+    Reals s, angle, z, force, holding, r;
     Texts kind;
   } joints;
   struct Modes {
