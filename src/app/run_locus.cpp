@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <continuation/locus.hpp>
 #include <continuation/walker.hpp>
@@ -52,14 +53,21 @@ std::optional<continuation::Point> relocate(const scene::Scene& scene, const equ
   return std::nullopt;
 }
 
+/// Is it the event at which the last contact is lost?
+bool lifts_off(const output::Run& run, const std::string& label) {
+  return std::any_of(run.special_points.begin(), run.special_points.end(), [&](const auto& special) {
+    return special.label == label && special.after == "no contact";
+  });
+}
+
 continuation::LocusOptions options_of(const LocusRequest& request, const continuation::Vector& p,
                                       int direction) {
   const bool angle = request.second == "load.angle";
   continuation::LocusOptions options;
   options.options.newton_tolerance = 1e-9;
-  options.options.max_points = 400;
+  options.options.max_points = 1000;
   options.options.step_max = 0.5;
-  options.options.lower = 1e-3;
+  options.options.lower = 0.05;  // below it rods of usual length have no tails left
   options.options.direction = direction;
   // Angles up to 8π, from where the contact arc vanishes; other parameters within a decade of where they are.
   const double low = request.from.value_or(angle ? 0.05 : 0.1 * p(1)),
@@ -83,8 +91,10 @@ int run_locus(const LocusRequest& request) {
   const std::string first = scene.continuation->parameter;
   if (first == request.second) throw InputError("the locus needs a second parameter other than " + first);
   scene = scene_of_point(scene, run, *run.points.find(request.label));
-  const auto special = relocate(scene, stored, {first, request.second}, type_of(row.type));
-  if (!special)
+  const bool isolated = request.second == "load.angle" && lifts_off(run, request.label);
+  const auto special =
+      isolated ? std::nullopt : relocate(scene, stored, {first, request.second}, type_of(row.type));
+  if (!special && !isolated)
     throw std::runtime_error("the special point " + request.label +
                              " could not be located again from its stored state");
 
@@ -101,7 +111,16 @@ int run_locus(const LocusRequest& request) {
   Progress progress(request.common.quiet);
   bool lost = false, stopped = false;
   int points = 0;
+  if (isolated) {
+    writer.add_point(output::make_row(stored, 1, 1, "", "contact", 0.0), stored);
+    progress.note(
+        "a point, not a curve: contact carries what the pulls do not balance, 2 T |sin(phi/2)| at least, so "
+        "the "
+        "last contact is lost at multiples of 2 pi only");
+    points = 1;
+  }
   for (const int direction : {1, -1}) {
+    if (isolated) break;
     continuation::LocusWalker walker(*special, options_of(request, special->p, direction));
     int in_branch = 0;
     while (const auto point = walker.step()) {
