@@ -80,7 +80,7 @@ void Walker::stop(const std::string& reason) {
 }
 
 std::optional<Point> Walker::step() {
-  if (queue_.empty() && !state_.end && !pending_end_) {
+  while (queue_.empty() && !state_.end && !pending_end_) {
     if (!state_.started) {
       start();
     } else {

@@ -85,7 +85,7 @@ void Walker::pass(Point event, std::size_t which, const std::string& name, int d
   event.next_x = state_.x;
   event.next_p = state_.p;
   const double before = event.p[options_.parameter];
-  queue_.push_back(std::move(event));
+  if (!transition->silent) queue_.push_back(std::move(event));
   for (const double stop : {options_.target, options_.lower, options_.upper}) {
     if (parameter(state_.p) != stop || stop == before) continue;  // entered beside the event, at a stop value
     queue_.push_back(here(PointType::end));

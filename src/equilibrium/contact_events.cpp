@@ -69,7 +69,37 @@ ContactEvent least_pressure(const Piece& piece, int link) {
   return {Kind::pressure, link, least.value, least.s};
 }
 
+double length_of(const Piece& piece) { return piece.s(piece.s.size() - 1) - piece.s(0); }
+
+ContactEvent length_event(const Profile& profile, const Topology& topology, int i) {
+  const int mid = static_cast<int>(topology.left.size()), other = i == mid ? mid - 1 : mid;
+  const double length = length_of(profile.pieces[i]);
+  ContactEvent event{Kind::length, i, length - least_length, profile.pieces[i].s(0)};
+  if (!topology.half && (i == mid || i == mid - 1) &&
+      one_side_ends(topology, i, length, length_of(profile.pieces[other])))
+    event.value = length + 2.0 * least_length;  // what bounds it has moved over the mid-point by then
+  return event;
+}
+
+/// Two touches at the ends of a short gap: with it their curvature, its height and all that tells them apart vanishes.
+bool hardly_apart(const Profile& profile, int link) {
+  constexpr double short_gap = 0.02, flat = 1e-6;
+  if (profile.pieces[link].stretch != Stretch::gap || length_of(profile.pieces[link]) > short_gap)
+    return false;
+  int touches = 0;
+  for (const Contact& c : profile.contacts)
+    touches += !c.edge && (c.joint == link || c.joint == link + 1) && c.gap_curvature < flat;
+  return touches == 2;
+}
+
 }  // namespace
+
+bool one_side_ends(const Topology& topology, int link, double length, double other_length) {
+  constexpr double lasting = 0.05;
+  const auto mid = static_cast<int>(topology.left.size());
+  return !topology.half && !topology.mid_touch && (link == mid || link == mid - 1) && length < lasting &&
+         other_length > lasting;
+}
 
 std::string ContactEvent::name() const {
   static const char* const words[] = {"pressure", "length", "force", "curvature", "graze"};
@@ -81,11 +111,12 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
   const int count = static_cast<int>(profile.pieces.size());
   for (int i = 0; i < count; ++i) {
     const Piece& piece = profile.pieces[i];
-    const double length = piece.s(piece.s.size() - 1) - piece.s(0);
     const bool at_mid = i == static_cast<int>(topology.left.size());
     if (piece.stretch == Stretch::line) events.push_back(least_pressure(piece, i));
-    if (piece.stretch != Stretch::tail)
-      events.push_back({Kind::length, i, length - least_length, piece.s(0)});
+    if (piece.stretch != Stretch::tail) {
+      events.push_back(length_event(profile, topology, i));
+      events.back().imminent = hardly_apart(profile, i);
+    }
     if (piece.stretch != Stretch::line) events.push_back(graze(piece, i, at_mid && !topology.mid_touch));
   }
   for (const Contact& c : profile.contacts) {

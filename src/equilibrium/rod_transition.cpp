@@ -160,7 +160,8 @@ std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const 
     Entry exact = guess;
     const bool vanishes =
         event.kind == Kind::length || (event.kind == Kind::curvature && next.opened.empty());
-    const auto found = vanishes ? locate_from_beyond(exact, event.s + 0.5 * least_length) : std::nullopt;
+    const auto found =
+        vanishes && !next.passes_mid ? locate_from_beyond(exact, event.s + 0.5 * least_length) : std::nullopt;
     if (found && holds(exact)) {
       precision = *found;
       return exact;
@@ -182,7 +183,7 @@ std::vector<continuation::EventFunction> RodProblem::events(const Vector& x, con
   std::vector<continuation::EventFunction> out;
   if (!scene_.has_cylinder) return out;
   for (const ContactEvent& event : contact_events(profile(x, p), topology_))
-    out.push_back({event.name(), event.value});
+    out.push_back({event.name(), event.value, event.imminent});
   return out;
 }
 
@@ -209,6 +210,7 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
     transition.after = found->problem->topology().text();
     transition.state = found->x;
     if (found->p != p || transition.precision >= 0.0) transition.p = found->p;
+    transition.silent = next.passes_mid;
     return transition;
   }
   return first;

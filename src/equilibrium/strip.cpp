@@ -1,5 +1,8 @@
 #include "strip.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace windlass::equilibrium {
 
 using chain::Stretch;
@@ -22,6 +25,7 @@ Successor Strip::successor() const {
     kinds.push_back(part.kind);
     out.source.push_back(part.source);
   }
+  out.passes_mid = passes_mid;
   out.topology.half = half;
   out.topology.mid_touch = mid_touch;
   out.topology.right.assign(kinds.begin() + marker, kinds.end());
@@ -55,7 +59,12 @@ void Strip::split(int i, double at, Stretch left, Stretch right) {
 
 bool Strip::collapse(int i) {
   const bool starts = starts_at_mid(i), ends = ends_at_mid(i);
-  if (!mid_touch && astride(parts[i].kind) && (starts || ends)) return collapse_about_mid();
+  if (!mid_touch && astride(parts[i].kind) && (starts || ends)) {
+    const int other = starts ? i - 1 : i + 1;
+    const bool one =
+        !half && one_side_ends(successor().topology, i, s[i + 1] - s[i], s[other + 1] - s[other]);
+    return one ? pass_mid(i) : collapse_about_mid();
+  }
   if (mid_touch && (starts || ends)) {  // a touch meets the one at the mid-point
     erase(i, starts ? i + 1 : i);
     mid_touch = !astride(Stretch::line);
@@ -74,6 +83,20 @@ bool Strip::collapse(int i) {
   else if (line_before)  // line – gap – touch: the touch joins the line
     s[i] = s[i + 1];
   erase(i, i + 1);
+  return true;
+}
+
+bool Strip::pass_mid(int i) {
+  const bool on_right = i == marker;
+  const int next = on_right ? i + 1 : i - 1;
+  if (parts[next].kind == Stretch::tail) return false;
+  parts[i].kind = parts[next].kind;
+  parts[i].source = parts[next].source;
+  const double bound = std::max(std::abs(s[on_right ? i + 1 : i]), least_length);
+  s[i] = on_right ? -bound : 0.0;
+  s[i + 1] = on_right ? 0.0 : bound;
+  marker = on_right ? i + 1 : i;
+  passes_mid = true;
   return true;
 }
 

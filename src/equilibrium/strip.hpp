@@ -17,7 +17,8 @@ struct Strip {
   std::vector<Part> parts;
   std::vector<double> s;  ///< bounds of the parts
   bool half = true, mid_touch = false;
-  int marker = 0;  ///< bound at the mid-point
+  bool passes_mid = false;  ///< see Successor
+  int marker = 0;           ///< bound at the mid-point
 
   Strip(const chain::Topology& topology, const std::vector<double>& places);
   Successor successor() const;
@@ -39,6 +40,8 @@ struct Strip {
 
  private:
   bool collapse_about_mid();
+  /// The bound of part i, which has run out beside the mid-point, goes over to the other side of it.
+  bool pass_mid(int i);
 };
 
 }  // namespace windlass::equilibrium

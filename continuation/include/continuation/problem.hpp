@@ -21,12 +21,14 @@ struct Transition {
   Vector p;  ///< where `state` solves, if beside the event (where a new part has no size yet)
   double precision =
       -1.0;  ///< of p, if `state` at p is the event itself, located from beyond; negative: it is not
+  bool silent = false;  ///< only the description changes (an origin moves on): no point of the branch
 };
 
 /// A scalar that must keep its sign along a regular branch.
 struct EventFunction {
   std::string name;  ///< e.g. "pressure", "force touch 2"; unique within a problem
   double value = 0.0;
+  bool imminent = false;  ///< near this zero F is nearly singular: where steps fail, it is taken to be reached
 };
 
 /// A smooth family of nonlinear equations F(x, p) = 0, with as many equations as degrees of freedom.

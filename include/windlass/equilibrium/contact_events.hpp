@@ -12,7 +12,8 @@
 /// | event | positive quantity | what follows |
 /// |---|---|---|
 /// | pressure | least pressure on a line contact | the line opens: a gap inside it, or all of it |
-/// | length | length of a line contact, or of a gap between contacts, less `least_length` | a touch in its place |
+/// | length | length of a line contact, or of a gap between contacts, less `least_length` | a touch in its place; where
+/// only one side of a full chain's mid-point runs out, the contact there moves over it |
 /// | force | point force at a touch or an edge | the touch is lost (an edge: no successor is known) |
 /// | curvature | g'' at a touch | the touch flattens into a line |
 /// | graze | least gap inside a free arc | a new touch |
@@ -27,9 +28,14 @@ struct ContactEvent {
   Kind kind = Kind::force;
   int place = 0;  ///< link (pressure, length, graze) or joint (force, curvature)
   double value = 0.0;
-  double s = 0.0;  ///< where along the rod
+  double s = 0.0;         ///< where along the rod
+  bool imminent = false;  ///< length of a gap so short that its two touches can hardly be told apart
   std::string name() const;
 };
+
+/// Does the stretch across the mid-point of a full chain end on one side only, its link there being the one given? What
+/// bounds it moves over the mid-point then, by as much as it can be told.
+bool one_side_ends(const chain::Topology& topology, int link, double length, double other_length);
 
 /// All events of a state, in a fixed order for a given topology.
 std::vector<ContactEvent> contact_events(const chain::Profile& profile, const chain::Topology& topology);
@@ -41,6 +47,7 @@ struct Successor {
   std::vector<int> source;    ///< link of the old chain whose mesh each new arc inherits
   std::vector<int> opened;    ///< links that have no length at the event itself
   bool nothing_left = false;  ///< no contact remains: the branch ends
+  bool passes_mid = false;    ///< a contact moves over the mid-point of a full chain: the same contacts
 };
 
 /// Candidates for what follows the event, most likely first.
