@@ -77,7 +77,7 @@ ContactEvent length_event(const Profile& profile, const Topology& topology, int 
   ContactEvent event{Kind::length, i, length - least_length, profile.pieces[i].s(0)};
   if (!topology.half && (i == mid || i == mid - 1) &&
       one_side_ends(topology, i, length, length_of(profile.pieces[other])))
-    event.value = length + 2.0 * least_length;  // what bounds it has moved over the mid-point by then
+    event.value = length + past_mid;
   return event;
 }
 

@@ -92,7 +92,7 @@ bool Strip::pass_mid(int i) {
   if (parts[next].kind == Stretch::tail) return false;
   parts[i].kind = parts[next].kind;
   parts[i].source = parts[next].source;
-  const double bound = std::max(std::abs(s[on_right ? i + 1 : i]), least_length);
+  const double bound = std::max(std::abs(s[on_right ? i + 1 : i]), past_mid);
   s[i] = on_right ? -bound : 0.0;
   s[i + 1] = on_right ? 0.0 : bound;
   marker = on_right ? i + 1 : i;

@@ -22,6 +22,8 @@ namespace windlass::equilibrium {
 /// Forces of an arc of length ℓ carry rounding errors like 1/ℓ: it gives way to the topology without it this early, and
 /// the event itself is located there.
 inline constexpr double least_length = 1e-3;
+/// So far a contact goes over the mid-point of a full chain before it counts to the other side: nothing is lost there.
+inline constexpr double past_mid = 1e-5;
 
 struct ContactEvent {
   enum class Kind { pressure, length, force, curvature, graze };
@@ -34,7 +36,7 @@ struct ContactEvent {
 };
 
 /// Does the stretch across the mid-point of a full chain end on one side only, its link there being the one given? What
-/// bounds it moves over the mid-point then, by as much as it can be told.
+/// bounds it moves over the mid-point then.
 bool one_side_ends(const chain::Topology& topology, int link, double length, double other_length);
 
 /// All events of a state, in a fixed order for a given topology.
