@@ -125,6 +125,24 @@ std::vector<Successor> after_force(const ContactEvent& event, Strip strip, const
   return {next};
 }
 
+/// A touch replaced by a stretch of a given length.
+Successor widened(const Strip& strip, int j, Stretch between, double length) {
+  Strip wide = strip;
+  const double begin = strip.s[j] - 0.5 * length, end = strip.s[j] + 0.5 * length;
+  if (strip.mid_touch && j == strip.marker) {
+    wide.mid_touch = false;
+    if (!strip.half) wide.split(j - 1, begin, strip.parts[j - 1].kind, between);
+    wide.split(wide.marker, end, between, strip.parts[j].kind);
+    wide.parts[wide.marker].fresh = true;
+    if (!strip.half) wide.parts[wide.marker - 1].fresh = true;
+  } else {
+    wide.split(j, end, between, strip.parts[j].kind);
+    wide.s[j] = begin;
+    wide.parts[j].fresh = true;
+  }
+  return wide.successor();
+}
+
 std::vector<Successor> after_curvature(const ContactEvent& event, const Strip& strip,
                                        const Profile& profile) {
   std::vector<Successor> out;
@@ -149,22 +167,9 @@ std::vector<Successor> after_curvature(const ContactEvent& event, const Strip& s
     closed.merge(is_line(i - 1) ? i - 1 : i, is_line(i + 1) ? i + 1 : i, Stretch::line);
     out.push_back(closed.successor());
   }
-  for (const double length : {0.05, 0.02, 0.1}) {  // of the new line
-    Strip flat = strip;
-    const double begin = strip.s[j] - 0.5 * length, end = strip.s[j] + 0.5 * length;
-    if (strip.mid_touch && j == strip.marker) {
-      flat.mid_touch = false;
-      if (!strip.half) flat.split(j - 1, begin, strip.parts[j - 1].kind, Stretch::line);
-      flat.split(flat.marker, end, Stretch::line, strip.parts[j].kind);
-      flat.parts[flat.marker].fresh = true;
-      if (!strip.half) flat.parts[flat.marker - 1].fresh = true;
-    } else {
-      flat.split(j, end, Stretch::line, strip.parts[j].kind);
-      flat.s[j] = begin;
-      flat.parts[j].fresh = true;
-    }
-    out.push_back(flat.successor());
-  }
+  // The touch flattens to a line, or where a line would pull (under low tension) comes apart into two.
+  for (const Stretch between : {Stretch::line, Stretch::gap})
+    for (const double length : {0.05, 0.02, 0.1}) out.push_back(widened(strip, j, between, length));
   return out;
 }
 

@@ -15,7 +15,7 @@
 /// | length | length of a line contact, or of a gap between contacts, less `least_length` | a touch in its place; where
 /// only one side of a full chain's mid-point runs out, the contact there moves over it |
 /// | force | point force at a touch or an edge | the touch is lost (an edge: no successor is known) |
-/// | curvature | g'' at a touch | the touch flattens into a line |
+/// | curvature | g'' at a touch | the touch flattens into a line, or comes apart into two |
 /// | graze | least gap inside a free arc | a new touch |
 namespace windlass::equilibrium {
 
