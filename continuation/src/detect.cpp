@@ -31,6 +31,12 @@ int sign_of(const EventSigns& signs, const std::string& name) {
 
 }  // namespace
 
+bool is_vertical(const Sample& lo, const Sample& hi) {
+  constexpr double rounding = 1e-9, slope = 1e-3;
+  return (hi.it.p - lo.it.p).cwiseAbs().maxCoeff() <= rounding * std::abs(hi.s - lo.s) &&
+         std::max(std::abs(lo.tangent.p), std::abs(hi.tangent.p)) < slope;
+}
+
 Located locate_fold(Segment& segment, const Sample& lo, const Sample& hi) {
   const Bracket bracket = find_zero(lo.s, lo.tangent.p, hi.s, hi.tangent.p, tolerance(segment),
                                     [&](double s) -> std::optional<double> {
@@ -123,6 +129,7 @@ namespace {
 int branch_points_between(const Sample& lo, const Sample& hi) {
   if (lo.index >= 0 && hi.index >= 0) {
     const int change = std::abs(hi.index - lo.index);
+    if (is_vertical(lo, hi)) return std::max(change - 1, 0);  // the branch's own direction is neutral
     if (lo.tangent.p * hi.tangent.p >= 0.0) return change;
     // A fold changes the index by one; unchanged across a turn, the side branch of a pitchfork goes through
     // it.

@@ -65,7 +65,8 @@ bool Walker::advance_once(std::string& failure) {
   const double cosine = inner(*state_.problem, state_.tangent, end->tangent, options_.parameter_scale);
   if (cosine < std::cos(options_.max_angle)) return failure = "the tangent turns too much", false;
   const double rise = segment.parameter(*end) - parameter(state_.p);
-  const double turn = state_.tangent.p * end->tangent.p;
+  const bool vertical = is_vertical(segment.base(), *end);
+  const double turn = vertical ? 0.0 : state_.tangent.p * end->tangent.p;
   if (turn > 0.0 && rise * state_.tangent.p < 0.0 && std::abs(rise) > 1e-9 * ds &&
       0.5 * ds >= options_.step_min)
     return failure = "two folds in one step", false;
