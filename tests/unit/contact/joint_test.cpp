@@ -137,6 +137,9 @@ BOOST_AUTO_TEST_CASE(location_conditions) {
   check_location("planar touch", contact::planar::Touch(), 1);
   check_location("planar edge", contact::planar::Edge(Side::left, 1.2), 1);
   check_location("spatial touch", contact::spatial::Touch(), 3);
+  check_location("planar touch at the mid-point", contact::planar::MarkerTouch(), 1);
+  check_location("spatial touch at the mid-point", contact::spatial::MarkerTouch(true), 3);
+  check_location("the same, spin held", contact::spatial::MarkerTouch(false), 3);
   check_location("spatial edge", contact::spatial::Edge(Side::left, 1.2), 3);
   check_location("spatial edge of a line to the right", contact::spatial::Edge(Side::right, 1.2), 3);
 }

@@ -1,0 +1,123 @@
+// Whole diagrams of long coils, as a user runs them: no branch is lost, every point passes its certificate.
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "support/csv.hpp"
+#include "support/run_program.hpp"
+
+using namespace windlass::test;
+
+namespace {
+
+std::string scene(const std::string& name) {
+  return std::string(std::getenv("WINDLASS_SCENES")) + "/" + name + ".toml";
+}
+
+/// Runs `diagram`, then `verify`; the run is in `folder`/run.
+void draw(const TemporaryFolder& folder, const std::string& name, const std::vector<std::string>& settings) {
+  std::vector<std::string> words = {"diagram", scene(name), "--out", "run", "--quiet", "--no-eigenvalues"};
+  for (const std::string& setting : settings) {
+    words.push_back("--set");
+    words.push_back(setting);
+  }
+  const Outcome outcome = run_program(words, folder.path());
+  BOOST_TEST(outcome.status == 0, outcome.err);  // 2: a branch was lost
+  const Outcome certificate = run_program({"verify", "run"}, folder.path());
+  BOOST_TEST(certificate.status == 0, certificate.out);
+}
+
+Table rows_of(const TemporaryFolder& folder) { return read_csv(folder.path() / "run" / "branches.csv"); }
+
+double number(const std::map<std::string, std::string>& row, const char* column) {
+  return std::stod(row.at(column));
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(diagrams)
+
+// Below T = 1/2 a flat coil on two touches turns at no cost where phi is a multiple of pi. It must not turn by rounding:
+// z_span is that of rounding, and the index, the number of helical arms that have left, stays what it was.
+BOOST_AUTO_TEST_CASE(a_flat_coil_stays_flat_where_a_turn_costs_nothing) {
+  for (const char* angle : {"3 pi", "5 pi"}) {
+    const TemporaryFolder folder;
+    draw(folder, "capstan-4pi", {"load.angle=\"" + std::string(angle) + "\"", "continuation.to=0.2"});
+    int low = 0, index = -1;
+    for (const auto& row : rows_of(folder).rows) {
+      if (row.at("branch") != "1" || row.at("type") != "regular" || number(row, "T") >= 0.5) continue;
+      ++low;
+      BOOST_TEST(number(row, "z_span") < 1e-10);
+      if (index < 0) index = std::stoi(row.at("index"));
+      BOOST_TEST(std::stoi(row.at("index")) == index, angle << ", T = " << row.at("T"));
+    }
+    BOOST_TEST(low > 5);
+    BOOST_TEST(index > 0);
+  }
+}
+
+// The arm of index 2 that leaves the clamped 4 pi coil second goes through a dozen contact topologies.
+BOOST_AUTO_TEST_CASE(all_arms_of_the_clamped_coil_reach_the_least_tension) {
+  const TemporaryFolder folder;
+  draw(folder, "capstan-4pi", {"ends.kind=\"clamped\""});
+  std::map<std::string, double> least;
+  for (const auto& row : rows_of(folder).rows) {
+    double& T = least.try_emplace(row.at("branch"), 1e9).first->second;
+    T = std::min(T, number(row, "T"));
+  }
+  BOOST_TEST(least.size() == 3u);
+  for (const auto& [branch, T] : least) BOOST_TEST(T == 0.1, boost::test_tools::tolerance(1e-9));
+}
+
+// Full chain: even and odd arms, touches at the mid-point that appear, lose their force and flatten, and two secondary
+// branches without any symmetry, whose mid-point is held.
+BOOST_AUTO_TEST_CASE(a_full_chain_follows_odd_and_asymmetric_arms) {
+  const TemporaryFolder folder;
+  draw(folder, "capstan-4pi", {"model.symmetry=\"none\""});
+  const auto special = nlohmann::json::parse(slurp(folder.path() / "run" / "special_points.json"));
+  int odd = 0;
+  for (const auto& point : special) {
+    if (point["type"] != "branch_point") continue;
+    BOOST_TEST(point["mode"]["plane"] == "out");
+    odd += point["mode"]["parity"] == "odd";
+  }
+  BOOST_TEST(odd >= 1);
+  // Even arms are those of the half chain, to within the error of both.
+  const TemporaryFolder half;
+  draw(half, "capstan-4pi", {});
+  std::vector<double> places;
+  for (const auto& point : nlohmann::json::parse(slurp(half.path() / "run" / "special_points.json")))
+    if (point["type"] == "contact") places.push_back(point["T"].get<double>());
+  BOOST_TEST(places.size() > 8u);
+  for (const double T : places) {
+    double nearest = 1.0;
+    for (const auto& point : special) nearest = std::min(nearest, std::abs(point["T"].get<double>() - T));
+    // Where several gaps open together (E3 of the half chain) the full chain's other order moves the point by 3e-7.
+    BOOST_TEST(nearest < 1e-6, "no special point of the full chain at T = " << T);
+  }
+}
+
+// phi at fixed T, through the flattening of the one touch, the coil and its helices.
+BOOST_AUTO_TEST_CASE(branches_in_the_angle_reach_eight_pi) {
+  for (const char* ends : {"moment_free", "clamped"}) {
+    const TemporaryFolder folder;
+    draw(folder, "capstan-2pi",
+         {"continuation.parameter=\"load.angle\"", "load.tension=0.8", "continuation.from=\"0.25 pi\"",
+          "continuation.to=\"8 pi\"", "rod.length=60", "ends.kind=\"" + std::string(ends) + "\""});
+    double most = 0.0;
+    for (const auto& row : rows_of(folder).rows) most = std::max(most, number(row, "phi"));
+    BOOST_TEST(most == 8.0 * M_PI, boost::test_tools::tolerance(1e-12));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_loss_of_the_last_contact_is_a_point_in_the_plane_of_tension_and_angle) {
+  const TemporaryFolder folder;
+  draw(folder, "capstan-2pi", {"continuation.from=0.6"});
+  const Outcome outcome = run_program({"locus", "run", "E2", "--out", "curve"}, folder.path());
+  BOOST_TEST(outcome.status == 0, outcome.err);
+  BOOST_TEST(outcome.err.find("a point, not a curve") != std::string::npos, outcome.err);
+  BOOST_TEST(read_csv(folder.path() / "curve" / "branches.csv").rows.size() == 1u);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
