@@ -28,7 +28,8 @@ struct Transition {
 struct EventFunction {
   std::string name;  ///< e.g. "pressure", "force touch 2"; unique within a problem
   double value = 0.0;
-  bool imminent = false;  ///< near this zero F is nearly singular: where steps fail, it is taken to be reached
+  bool imminent =
+      false;  ///< near this zero F is nearly singular: where steps fail, it is taken to be reached
 };
 
 /// A smooth family of nonlinear equations F(x, p) = 0, with as many equations as degrees of freedom.
