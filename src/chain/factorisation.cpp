@@ -1,12 +1,8 @@
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "neutral_turn.hpp"
 #include "windlass/chain/chain.hpp"
-
-/// LAPACK: Bunch-Kaufman factorisation of a symmetric matrix. Reaches the program through PETSc.
-extern "C" void dsytrf_(const char* uplo, const int* n, double* a, const int* lda, int* pivot, double* work,
-                        const int* work_size, int* info);
 
 namespace windlass::chain {
 
@@ -19,87 +15,8 @@ using contact::SmallVector;
 
 namespace {
 
-/// Number of eigenvalues of a symmetric matrix below zero, by Bunch-Kaufman factorisation (LAPACK dsytrf).
-int negative_eigenvalues(MatrixXd a) {
-  int n = static_cast<int>(a.rows()), info = 0, work_size = 64 * std::max(n, 1);
-  if (n == 0) return 0;
-  std::vector<int> pivot(n);
-  VectorXd work(work_size);
-  dsytrf_("L", &n, a.data(), &n, pivot.data(), work.data(), &work_size, &info);
-  int negative = 0;
-  for (int k = 0; k < n; ++k) {
-    if (pivot[k] > 0) {
-      negative += a(k, k) < 0.0;
-    } else {  // a 2×2 pivot has one eigenvalue of each sign
-      ++negative;
-      ++k;
-    }
-  }
-  return negative;
-}
-
-/// What a neutral motion leaves of a pivot, as a part of the others: the error that Newton's method has left.
-constexpr double nearly_zero = 1e-6;
-
 /// What rounding leaves of forces out of the plane of a flat rod.
 constexpr double nothing = 1e-8;
-
-/// Size of the entries in the middle: an arc that is singular by itself leaves one of 1e10.
-double median(VectorXd values) {
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-bool is_singular(const Eigen::PartialPivLU<MatrixXd>& lu) {
-  const VectorXd pivots = lu.matrixLU().diagonal().cwiseAbs();
-  return pivots.minCoeff() < nearly_zero * median(pivots);
-}
-
-/// The vector of a null space (orthonormal columns) with the least part in the rows of location conditions.
-/// @param locations  those rows, −1: none
-struct Least {
-  Least(const MatrixXd& null_space, const std::vector<Eigen::Index>& locations) {
-    MatrixXd part = MatrixXd::Zero(static_cast<Eigen::Index>(locations.size()), null_space.cols());
-    for (std::size_t j = 0; j < locations.size(); ++j)
-      if (locations[j] >= 0) part.row(static_cast<Eigen::Index>(j)) = null_space.row(locations[j]);
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(part.transpose() * part);
-    vector = null_space * eigen.eigenvectors().col(0);
-    constexpr double little = 0.1;
-    is_turn = std::sqrt(std::abs(eigen.eigenvalues()(0))) < little * vector.cwiseAbs().maxCoeff();
-  }
-  VectorXd vector;
-  bool
-      is_turn;  ///< a turn of a flat rod moves no contact along it; the rest is a touch about to flatten or to leave
-};
-
-/// A matrix that a neutral turn v makes singular, made regular with v and the left null vector u: its solutions are those
-/// of the singular system, without a part along v, so that Newton does not wander along it.
-MatrixXd without_turn(const MatrixXd& singular, const std::vector<Eigen::Index>& locations) {
-  const Eigen::JacobiSVD<MatrixXd> svd(singular, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const double usual = median(svd.singularValues());
-  const Eigen::Index nullity = (svd.singularValues().array() < nearly_zero * usual).count();
-  if (nullity == 0) return singular;
-  const Least left(svd.matrixU().rightCols(nullity), locations);
-  if (!left.is_turn) return singular;
-  const VectorXd u = left.vector, v = Least(svd.matrixV().rightCols(nullity), locations).vector;
-  // The determinant's sign must not depend on that of u.
-  const double orientation = u.dot(v) < 0.0 ? -1.0 : 1.0;
-  return singular + orientation * usual * u * v.transpose();
-}
-
-/// Eigenvalues below zero, without one that is zero up to rounding and belongs to the turn. An arc that is singular by
-/// itself leaves an entry as large as 1e10, and its rounding to the others.
-int negative_but_turn(const MatrixXd& dense, const std::vector<Eigen::Index>& locations) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(dense);
-  const VectorXd& values = eigen.eigenvalues();
-  const double zero = 3e-9 + 1e-14 * values.cwiseAbs().maxCoeff();
-  const auto negative = (values.array() < 0.0).count();
-  if (negative == 0) return 0;
-  const bool turns =
-      values(negative - 1) > -zero && Least(eigen.eigenvectors().col(negative - 1), locations).is_turn;
-  return static_cast<int>(negative) - turns;
-}
 
 }  // namespace
 
@@ -201,15 +118,6 @@ void Chain::add_locations(const VectorXd& x, MatrixXd& dense) const {
     dense.row(row).segment(numbering_.coordinate[j], joints_[j]->tangent()) +=
         location(x, j).by_w.transpose();
     if (joints_[j]->held()) dense(numbering_.coordinate[j], row) += 1.0;
-  }
-}
-
-void Chain::add_pins(const Numbering& numbering, const VectorXd& x, MatrixXd& dense) const {
-  for (int j = 0; j < joint_count(); ++j) {
-    const Eigen::Index row = numbering.pin[j], first = numbering.coordinate[j], s = numbering.location[j];
-    if (row < 0) continue;
-    dense(row, first) = dense(first, row) = 1.0;
-    dense(row, s) = dense(s, row) = -joints_[j]->slide(coordinates(x, j));
   }
 }
 
@@ -330,36 +238,6 @@ VectorXd Chain::solve(const VectorXd& f, const VectorXd& g, bool transposed) con
   out.head(size_) = x;
   out.tail(k) = y.tail(k);
   return out;
-}
-
-MatrixXd Chain::variation_matrix(Purpose purpose, const Numbering& numbering, const VectorXd& x,
-                                 const Loads& loads) const {
-  MatrixXd dense = MatrixXd::Zero(numbering.size, numbering.size);
-  for (int i = 0; i < link_count(); ++i)
-    add_joint_terms(purpose, numbering, x, loads, i, gradients_[i], dense);
-  add_pins(numbering, x, dense);
-  return dense;
-}
-
-int Chain::index(const VectorXd& x, const Loads& loads, Parity parity) const {
-  if (parity == Parity::odd && !half()) return 0;
-  const Purpose purpose = parity == Parity::odd ? Purpose::odd : Purpose::even;
-  const Numbering numbering = number(purpose);
-  MatrixXd dense = variation_matrix(purpose, numbering, x, loads);
-  int negative = 0;
-  for (int i = 0; i < link_count(); ++i) {
-    negative += links_[i].arc->negative_pivots();
-    const Local l = local(purpose, numbering, x, loads, i);
-    bvp::EndsMatrix hessian = with_commutator(*links_[i].arc, condensed_[i], gradients_[i]);
-    if (purpose == Purpose::odd && i == 0 && links_[0].arc->ambient() == 4)  // see Joint::attach_odd
-      hessian.block(0, 0, 3, 3) = condensed_[0].block(0, 0, 3, 3);
-    const MatrixXd share = l.columns.transpose() * hessian * l.columns;
-    for (std::size_t r = 0; r < l.dofs.size(); ++r)
-      for (std::size_t s = 0; s < l.dofs.size(); ++s) dense(l.dofs[r], l.dofs[s]) += share(r, s);
-  }
-  dense = (0.5 * (dense + dense.transpose())).eval();
-  negative += neutral_turn_ ? negative_but_turn(dense, numbering.location) : negative_eigenvalues(dense);
-  return negative - numbering.constraints;
 }
 
 }  // namespace windlass::chain
