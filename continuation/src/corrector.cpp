@@ -88,7 +88,7 @@ class Newton {
       }
       report_.increment = size_;
       // Equations that are nearly singular turn a residual that is all rounding into corrections above the tolerance.
-      const bool exhausted = stagnant && report_.residual <= 1e-5 * options_.residual_tolerance;
+      const bool exhausted = stagnant && report_.residual <= 1e-4 * options_.residual_tolerance;
       const bool small = size_ <= tolerance || (stagnant && size_ <= (exhausted ? 10.0 : 1.0) * rounding);
       // Where corrections are this small twice, what is left of F is the rounding of its large terms (those of an arc
       // about to vanish, say).

@@ -20,11 +20,13 @@ constexpr double safety = 2.0, rounding = 2e-14;
 /// Every stored point must pass `verify`, whose bounds on frames, moments and positions are 1e-9.
 constexpr double certificate_level = 1e-9;
 
-/// Splits elements across which a free arc amplifies errors by more than exp(3): the certificate integrates from node
-/// to node. Elements of many growth lengths (straight tails at high tension) are left whole; there it measures the
-/// distance to the nearest true trajectory instead.
+/// Growth lengths of an element: the certificate integrates from node to node, and errors grow by exp(3) at most. Elements
+/// of many (straight tails at high tension) are left whole; there it measures the distance to the nearest true trajectory
+/// instead.
+constexpr double longest = 3.0, whole = 25.0;
+
+/// Splits elements that are longer.
 std::vector<double> bounded(const std::vector<double>& mesh, double growth) {
-  constexpr double longest = 3.0, whole = 25.0;
   std::vector<double> out{mesh.front()};
   for (std::size_t k = 1; k < mesh.size(); ++k) {
     const double h = mesh[k] - mesh[k - 1];
@@ -33,6 +35,25 @@ std::vector<double> bounded(const std::vector<double>& mesh, double growth) {
     for (int i = 1; i <= parts; ++i) out.push_back(i == parts ? mesh[k] : mesh[k - 1] + h * i / parts);
   }
   return out;
+}
+
+double growth_over(const chain::Chain::Placed& arc, double bending_stiffness) {
+  return arc.length * std::sqrt(arc.n.norm() / bending_stiffness);
+}
+
+/// Has a contact grown, by a fifth, out of the elements it was given?
+bool outgrown(const chain::Chain& chain, const std::vector<chain::ArcMesh>& meshes, const Vector& x,
+              const Loads& at, double bending_stiffness) {
+  for (int i = 0; i < chain.link_count(); ++i) {
+    if (chain.link(i).arc->elements() == 0) continue;
+    const double growth = growth_over(chain.place(x, at, i), bending_stiffness);
+    const std::vector<double>& nodes = meshes[i].nodes;
+    for (std::size_t k = 1; k < nodes.size(); ++k) {
+      const double size = growth * (nodes[k] - nodes[k - 1]);
+      if (size > 1.2 * longest && size < whole) return true;
+    }
+  }
+  return false;
 }
 
 /// Order of the arcs on a mesh, at their ends; a chain of formulas only never asks.
@@ -103,7 +124,7 @@ std::vector<chain::ArcMesh> RodProblem::new_meshes(const Vector& x, const Loads&
     }
     mesh.push_back(1.0);
     const chain::Chain::Placed placed = chain_->place(x, at, static_cast<int>(i));
-    out[i].nodes = bounded(mesh, placed.length * std::sqrt(placed.n.norm() / rod_.bending_stiffness));
+    out[i].nodes = bounded(mesh, growth_over(placed, rod_.bending_stiffness));
   }
   return out;
 }
@@ -164,6 +185,8 @@ std::optional<Vector> RodProblem::adapt(const Vector& x, const Vector& p) {
   const double too_large = excess(x, p);
   // A straight strut is exact on any mesh, which says nothing about its modes: their loads need the mesh it has.
   const bool coarsen = too_large < superfluous && last_error_ > 1.5 * rounding;
+  if (too_large <= 1.0 && outgrown(*chain_, meshes_, x, loads(p), rod_.bending_stiffness))
+    return moved_to(new_meshes(x, loads(p), 1.0), x, p, true);
   if (too_large <= 1.0 && !coarsen) return std::nullopt;
   const double order = order_of(meshes_);
   const auto meshes = new_meshes(x, loads(p), std::pow(30.0 * too_large, 1.0 / order));
