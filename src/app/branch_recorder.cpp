@@ -8,6 +8,7 @@
 
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
+#include "windlass/equilibrium/event_precision.hpp"
 #include "windlass/equilibrium/record.hpp"
 
 namespace windlass::app {
@@ -142,6 +143,11 @@ void BranchRecorder::on_special_point(const Branch& branch, const Point& point) 
   entry.phi = last_.phi;
   entry.parameter = last_.parameter;
   entry.precision = point.precision;
+  if (point.type == PointType::event) {
+    const auto& problem = dynamic_cast<const RodProblem&>(*point.problem);
+    const auto of_mesh = equilibrium::event_precision(problem, point.x, point.p, point.event);
+    entry.precision = std::max(entry.precision, of_mesh.value_or(0.0));
+  }
   entry.multiplicity = std::max(
       1, point.type == PointType::branch_point ? std::max(point.multiplicity, kernel_) : point.multiplicity);
   entry.before = point.before;

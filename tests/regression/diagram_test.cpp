@@ -86,16 +86,20 @@ BOOST_AUTO_TEST_CASE(a_full_chain_follows_odd_and_asymmetric_arms) {
   // Even arms are those of the half chain, to within the error of both.
   const TemporaryFolder half;
   draw(half, "capstan-4pi", {});
-  std::vector<double> places;
-  for (const auto& point : nlohmann::json::parse(slurp(half.path() / "run" / "special_points.json")))
-    if (point["type"] == "contact") places.push_back(point["T"].get<double>());
-  BOOST_TEST(places.size() > 8u);
-  for (const double T : places) {
-    double nearest = 1.0;
-    for (const auto& point : special) nearest = std::min(nearest, std::abs(point["T"].get<double>() - T));
-    // Where several gaps open together (E3 of the half chain) the full chain's other order moves the point by 3e-7.
-    BOOST_TEST(nearest < 1e-6, "no special point of the full chain at T = " << T);
+  int events = 0;
+  for (const auto& of_half : nlohmann::json::parse(slurp(half.path() / "run" / "special_points.json"))) {
+    if (of_half["type"] != "contact") continue;
+    ++events;
+    // On other meshes, so as far apart as the precision of both allows (and no less than what rounding leaves).
+    double excess = 1.0;
+    for (const auto& point : special) {
+      const double allowed = of_half["precision"].get<double>() + point["precision"].get<double>() + 1e-10;
+      excess =
+          std::min(excess, std::abs(point["T"].get<double>() - of_half["T"].get<double>()) / allowed - 1.0);
+    }
+    BOOST_TEST(excess <= 0.0, "no special point of the full chain at T = " << of_half["T"]);
   }
+  BOOST_TEST(events > 8);
 }
 
 // phi at fixed T, through the flattening of the one touch, the coil and its helices.

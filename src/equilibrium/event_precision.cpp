@@ -1,0 +1,40 @@
+#include "windlass/equilibrium/event_precision.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace windlass::equilibrium {
+
+namespace {
+
+/// Value of the event where the problem is solved at p, from a state nearby.
+std::optional<double> value_at(RodProblem& problem, Vector& x, const Vector& p, const std::string& event) {
+  if (problem.polish(x, p) < 0) return std::nullopt;
+  for (const continuation::EventFunction& function : problem.events(x, p))
+    if (function.name == event) return function.value;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<double> event_precision(const RodProblem& problem, const Vector& x, const Vector& p,
+                                      const std::string& event) {
+  constexpr double safety = 2.0, difference = 1e-6, believable = 1e-4;
+  try {
+    std::vector<chain::ArcMesh> meshes = problem.meshes();
+    for (chain::ArcMesh& mesh : meshes) mesh.stages += mesh.stages > 0;  // formulas stay
+    RodProblem finer(problem.scene_at(p), problem.spatial(), problem.topology(), meshes, problem.keys());
+    Vector fine = chain::transfer_state(problem.chain(), finer.chain(), x, finer.loads(p));
+    const auto here = value_at(finer, fine, p, event);
+    Vector beside = p;
+    beside(0) += difference * std::max(1.0, std::abs(p(0)));
+    const auto there = here ? value_at(finer, fine, beside, event) : std::nullopt;
+    if (!there || *there == *here) return std::nullopt;
+    const double distance = safety * std::abs(*here * (beside(0) - p(0)) / (*there - *here));
+    return distance < believable ? std::optional(distance) : std::nullopt;
+  } catch (const std::exception&) {  // a state at the edge of its domain
+    return std::nullopt;
+  }
+}
+
+}  // namespace windlass::equilibrium
