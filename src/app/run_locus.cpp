@@ -119,8 +119,7 @@ int run_locus(const LocusRequest& request) {
         "last contact is lost at multiples of 2 pi only");
     points = 1;
   }
-  for (const int direction : {1, -1}) {
-    if (isolated) break;
+  for (const int direction : isolated ? std::vector<int>{} : std::vector{1, -1}) {
     continuation::LocusWalker walker(*special, options_of(request, special->p, direction));
     int in_branch = 0;
     while (const auto point = walker.step()) {

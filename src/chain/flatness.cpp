@@ -55,7 +55,7 @@ bool Chain::is_flat(const std::vector<Placed>& placed) const {
   return true;
 }
 
-double Chain::outside(const VectorXd& f) const {
+double Chain::outside(const Eigen::Ref<const VectorXd>& f) const {
   double largest = 0.0;
   for (const Eigen::Index at : outside_) largest = std::max(largest, std::abs(f(at)));
   return largest;

@@ -34,17 +34,17 @@ Attachment sized(int configuration, int tangent, int position, int coordinates) 
   return at;
 }
 
-/// Tangency d₃·N(a) = 0 with its derivatives.
-struct Tangency {
-  Tangency(double a, const rod::Quaternion& q) {
-    const Eigen::Matrix3d r = rod::directors(q);
-    value = r.col(2).dot(outward(a));
-    by_angle = r.col(2).dot(along(a));
-    by_spin = 2.0 * Vector3d::UnitZ().cross(r.transpose() * outward(a));
-  }
-  double value, by_angle;
-  Vector3d by_spin;  ///< per half rotation vector in the body frame
-};
+/// Tangency d₃·N(a) = 0 of a touch whose degrees of freedom are a first and the spins last.
+Joint::Location tangency(double a, const rod::Quaternion& q, int tangent, int spins) {
+  const Eigen::Matrix3d r = rod::directors(q);
+  Joint::Location c;
+  c.value = r.col(2).dot(outward(a));
+  c.by_w = SmallVector::Zero(tangent);
+  c.by_w(0) = r.col(2).dot(along(a));
+  const Vector3d by_spin = 2.0 * Vector3d::UnitZ().cross(r.transpose() * outward(a));
+  c.by_w.tail(spins) = by_spin.head(spins);
+  return c;
+}
 
 }  // namespace
 
@@ -86,13 +86,7 @@ void Touch::curvature(Side, const double* w, const Loads&, const SmallVector&, c
 }
 
 Joint::Location Touch::location(const double* w, const SmallVector&, const SmallVector&) const {
-  const Tangency t(w[0], Eigen::Map<const Eigen::Vector4d>(w + 2));
-  Location c;
-  c.value = t.value;
-  c.by_w = SmallVector::Zero(tangent());
-  c.by_w(0) = t.by_angle;
-  c.by_w.tail(3) = t.by_spin;
-  return c;
+  return tangency(w[0], Eigen::Map<const Eigen::Vector4d>(w + 2), tangent(), 3);
 }
 
 void Touch::retract(const double* w, const double* dw, double* out) const {
@@ -220,13 +214,7 @@ void MarkerTouch::curvature(Side, const double* w, const Loads&, const SmallVect
 }
 
 Joint::Location MarkerTouch::location(const double* w, const SmallVector&, const SmallVector&) const {
-  const Tangency t(w[0], Eigen::Map<const Eigen::Vector4d>(w + 1));
-  Location c;
-  c.value = t.value;
-  c.by_w = SmallVector::Zero(tangent());
-  c.by_w(0) = t.by_angle;
-  c.by_w.tail(tangent() - 1) = t.by_spin.head(tangent() - 1);
-  return c;
+  return tangency(w[0], Eigen::Map<const Eigen::Vector4d>(w + 1), tangent(), tangent() - 1);
 }
 
 void MarkerTouch::retract(const double* w, const double* dw, double* out) const {

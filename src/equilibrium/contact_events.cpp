@@ -71,16 +71,6 @@ ContactEvent least_pressure(const Piece& piece, int link) {
 
 double length_of(const Piece& piece) { return piece.s(piece.s.size() - 1) - piece.s(0); }
 
-ContactEvent length_event(const Profile& profile, const Topology& topology, int i) {
-  const int mid = static_cast<int>(topology.left.size()), other = i == mid ? mid - 1 : mid;
-  const double length = length_of(profile.pieces[i]);
-  ContactEvent event{Kind::length, i, length - least_length, profile.pieces[i].s(0)};
-  if (!topology.half && (i == mid || i == mid - 1) &&
-      one_side_ends(topology, i, length, length_of(profile.pieces[other])))
-    event.value = length + past_mid;
-  return event;
-}
-
 /// Two touches at the ends of a short gap: with it their curvature, its height and all that tells them apart vanishes.
 bool hardly_apart(const Profile& profile, int link) {
   constexpr double short_gap = 0.02, flat = 1e-6;
@@ -92,13 +82,22 @@ bool hardly_apart(const Profile& profile, int link) {
   return touches == 2;
 }
 
+ContactEvent length_event(const Profile& profile, const Topology& topology, int i) {
+  const int mid = static_cast<int>(topology.left.size());
+  const double length = length_of(profile.pieces[i]);
+  ContactEvent event{Kind::length, i, length - least_length, profile.pieces[i].s(0)};
+  event.imminent = hardly_apart(profile, i);
+  const bool at_mid = !topology.half && !topology.mid_touch && (i == mid || i == mid - 1);
+  if (at_mid && one_side_ends(length, length_of(profile.pieces[2 * mid - 1 - i])))
+    event.value = length + past_mid;
+  return event;
+}
+
 }  // namespace
 
-bool one_side_ends(const Topology& topology, int link, double length, double other_length) {
+bool one_side_ends(double length, double other_length) {
   constexpr double lasting = 0.05;
-  const auto mid = static_cast<int>(topology.left.size());
-  return !topology.half && !topology.mid_touch && (link == mid || link == mid - 1) && length < lasting &&
-         other_length > lasting;
+  return length < lasting && other_length > lasting;
 }
 
 std::string ContactEvent::name() const {
@@ -113,10 +112,7 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
     const Piece& piece = profile.pieces[i];
     const bool at_mid = i == static_cast<int>(topology.left.size());
     if (piece.stretch == Stretch::line) events.push_back(least_pressure(piece, i));
-    if (piece.stretch != Stretch::tail) {
-      events.push_back(length_event(profile, topology, i));
-      events.back().imminent = hardly_apart(profile, i);
-    }
+    if (piece.stretch != Stretch::tail) events.push_back(length_event(profile, topology, i));
     if (piece.stretch != Stretch::line) events.push_back(graze(piece, i, at_mid && !topology.mid_touch));
   }
   for (const Contact& c : profile.contacts) {

@@ -88,20 +88,18 @@ JointRecord contact_record(const chain::Contact& c, double sign) {
 }
 
 /// Jump of the internal force at the mid-point that no contact makes, along the rod there. Zero where it is rounding.
-double holding_force(const ArcRecord& before, const ArcRecord& after, bool touch) {
+double holding_force(const ArcRecord& before, const ArcRecord& after, const Vector3d& along) {
   constexpr double rounding = 1e-12;
-  const Vector3d n = before.n.rightCols<1>(), r = after.r.col(0);
-  const Vector3d along = touch ? Vector3d(-r(1), r(0), 0.0).normalized() : Vector3d(Vector3d::UnitX());
+  const Vector3d n = before.n.rightCols<1>();
   const double force = (n - after.n.col(0)).dot(along);
   return std::abs(force) > rounding * std::max(1.0, n.norm()) ? force : 0.0;
 }
 
-JointRecord held_record(const ArcRecord& after, double holding) {
+JointRecord held_record(const ArcRecord& after) {
   JointRecord joint;
   joint.kind = JointKind::held;
   joint.r = after.r.col(0);
   joint.angle = after.kind == ArcKind::line ? 0.0 : std::atan2(joint.r(0), -joint.r(1));
-  joint.holding = holding;
   return joint;
 }
 
@@ -116,13 +114,12 @@ void assemble(const chain::Profile& shape, const Topology& topology, bool infini
       if (!(topology.mid_touch && j == 0)) contacts.push_back(contact_record(shape.contacts[j], -1.0));
   for (const chain::Contact& c : shape.contacts) contacts.push_back(contact_record(c, 1.0));
   const std::size_t marker = topology.half ? topology.right.size() : topology.left.size();
-  const double holding =
-      topology.half ? 0.0 : holding_force(arcs[marker - 1], arcs[marker], topology.mid_touch);
+  JointRecord mid = topology.mid_touch ? contacts[marker - 1] : held_record(arcs[marker]);
+  if (!topology.half) mid.holding = holding_force(arcs[marker - 1], arcs[marker], mid.holding_direction());
   if (topology.mid_touch) {
-    contacts[marker - 1].holding = holding;
-  } else if (holding != 0.0) {
-    contacts.insert(contacts.begin() + static_cast<std::ptrdiff_t>(marker - 1),
-                    held_record(arcs[marker], holding));
+    contacts[marker - 1] = mid;
+  } else if (mid.holding != 0.0) {
+    contacts.insert(contacts.begin() + static_cast<std::ptrdiff_t>(marker - 1), mid);
   } else {  // the mid-point is no joint: its stretch spans both halves
     append(arcs[marker - 1], arcs[marker]);
     arcs.erase(arcs.begin() + static_cast<std::ptrdiff_t>(marker));

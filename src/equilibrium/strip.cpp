@@ -61,8 +61,7 @@ bool Strip::collapse(int i) {
   const bool starts = starts_at_mid(i), ends = ends_at_mid(i);
   if (!mid_touch && astride(parts[i].kind) && (starts || ends)) {
     const int other = starts ? i - 1 : i + 1;
-    const bool one =
-        !half && one_side_ends(successor().topology, i, s[i + 1] - s[i], s[other + 1] - s[other]);
+    const bool one = !half && one_side_ends(s[i + 1] - s[i], s[other + 1] - s[other]);
     return one ? pass_mid(i) : collapse_about_mid();
   }
   if (mid_touch && (starts || ends)) {  // a touch meets the one at the mid-point

@@ -21,10 +21,6 @@ from = 5.0
 to = 0.1
 )";
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 /// Runs `solve` on the capstan with `what` replaced by `by` and expects the message in a single line.
 void expect_refusal(const std::string& what, const std::string& by, const std::string& message) {
   const TemporaryFolder folder;

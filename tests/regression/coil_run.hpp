@@ -13,7 +13,7 @@ namespace windlass::test {
 
 inline constexpr double full_turn = 2.0 * M_PI;
 
-inline std::string coil() { return std::string(std::getenv("WINDLASS_SCENES")) + "/capstan-2pi.toml"; }
+inline std::string coil() { return shipped_scene("capstan-2pi"); }
 
 using Words = std::vector<std::string>;
 
@@ -24,10 +24,6 @@ inline Words operator+(Words words, const Words& more) {
 
 inline Words planar(const std::string& command, const Words& more = {}) {
   return Words{command, coil(), "--set", "model.kind=planar"} + more;
-}
-
-inline bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 inline double relative(double value, double exact) { return std::abs(value / exact - 1.0); }

@@ -11,13 +11,10 @@ using namespace windlass::test;
 
 namespace {
 
-std::string scene(const std::string& name) {
-  return std::string(std::getenv("WINDLASS_SCENES")) + "/" + name + ".toml";
-}
-
 /// Runs `diagram`, then `verify`; the run is in `folder`/run.
 void draw(const TemporaryFolder& folder, const std::string& name, const std::vector<std::string>& settings) {
-  std::vector<std::string> words = {"diagram", scene(name), "--out", "run", "--quiet", "--no-eigenvalues"};
+  std::vector<std::string> words = {"diagram", shipped_scene(name), "--out",
+                                    "run",     "--quiet",           "--no-eigenvalues"};
   for (const std::string& setting : settings) {
     words.push_back("--set");
     words.push_back(setting);

@@ -29,10 +29,6 @@ std::vector<std::vector<double>> block(const std::filesystem::path& path, int wa
   return rows;
 }
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(figures)

@@ -19,7 +19,7 @@ namespace {
 constexpr double mu = 0.27, two_pi = 2.0 * M_PI;
 
 /// A material scene: ρ = 14 mm, EI/ρ² = 1.231 N.
-std::string scene() { return std::string(std::getenv("WINDLASS_SCENES")) + "/capstan-vps-pom.toml"; }
+std::string scene() { return shipped_scene("capstan-vps-pom"); }
 
 void make_run(const TemporaryFolder& folder) {
   const Outcome outcome = run_program({"diagram", scene(), "--set", "rod.length=400 mm", "--set",
@@ -41,10 +41,6 @@ std::string flat_strengths(double unit_force) {
 double unit_force() {
   const Outcome outcome = run_program({"solve", scene(), "--set", "model.kind=planar", "--json"});
   return nlohmann::json::parse(outcome.out)["physical"]["scales"]["force"]["value"].get<double>();
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ BOOST_AUTO_TEST_SUITE(restarts)
 
 BOOST_AUTO_TEST_CASE(a_branch_goes_on_from_its_branch_point) {
   const TemporaryFolder folder;
-  const std::string scene = std::string(std::getenv("WINDLASS_SCENES")) + "/capstan-2pi.toml";
+  const std::string scene = shipped_scene("capstan-2pi");
   const std::vector<std::string> first{
       "continue", scene, "--no-eigenvalues", "--set", "continuation.to=1.2", "--out", "first", "--quiet"};
   BOOST_REQUIRE(run_program(first, folder.path()).status == 0);

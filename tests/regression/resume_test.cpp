@@ -20,13 +20,9 @@ Words operator+(Words words, const Words& more) {
   return words;
 }
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 /// Flat and helical branch of the 2π coil with their branch point and contact events, in some 60 points.
 Words diagram(const Words& more = {}) {
-  const std::string scene = std::string(std::getenv("WINDLASS_SCENES")) + "/capstan-2pi.toml";
+  const std::string scene = shipped_scene("capstan-2pi");
   return Words{"diagram", scene, "--set", "continuation.to=0.4", "--quiet"} + more;
 }
 

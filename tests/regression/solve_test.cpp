@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(infinite_length_equals_the_closed_form) {
 }
 
 BOOST_AUTO_TEST_CASE(physical_scenes_have_units) {
-  const std::string scene = std::string(std::getenv("WINDLASS_SCENES")) + "/capstan-vps-pom.toml";
+  const std::string scene = shipped_scene("capstan-vps-pom");
   const Outcome outcome = run_program({"solve", scene, "--set", "model.kind=planar", "--json"});
   BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
   const auto json = nlohmann::json::parse(outcome.out);

@@ -9,20 +9,12 @@
 using namespace windlass::test;
 using nlohmann::json;
 
-namespace {
-
-std::string scene(const std::string& name) {
-  return std::string(std::getenv("WINDLASS_SCENES")) + "/" + name + ".toml";
-}
-
-}  // namespace
-
 BOOST_AUTO_TEST_SUITE(strut_runs)
 
 BOOST_AUTO_TEST_CASE(the_shipped_strut_is_straight_before_it_is_pushed) {
   for (const char* name : {"strut-clamped", "strut-twisted"}) {
     const TemporaryFolder folder;
-    const Outcome outcome = run_program({"solve", scene(name), "--json"}, folder.path());
+    const Outcome outcome = run_program({"solve", shipped_scene(name), "--json"}, folder.path());
     BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
     const json answer = json::parse(outcome.out);
     BOOST_TEST(std::abs(answer["end_force"].get<double>()) < 1e-12);
@@ -34,8 +26,9 @@ BOOST_AUTO_TEST_CASE(the_shipped_strut_is_straight_before_it_is_pushed) {
 
 BOOST_AUTO_TEST_CASE(buckling_of_an_isotropic_strut_is_a_double_branch_point_with_one_arm) {
   const TemporaryFolder folder;
-  const Outcome outcome = run_program(
-      {"diagram", scene("strut-thrust"), "--set", "continuation.to=50", "--out", "run"}, folder.path());
+  const Outcome outcome =
+      run_program({"diagram", shipped_scene("strut-thrust"), "--set", "continuation.to=50", "--out", "run"},
+                  folder.path());
   BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
   const json specials = json::parse(slurp(folder.path() / "run" / "special_points.json"));
   BOOST_TEST_REQUIRE(specials.size() >= 1u);
@@ -52,7 +45,8 @@ BOOST_AUTO_TEST_CASE(buckling_of_an_isotropic_strut_is_a_double_branch_point_wit
 
 BOOST_AUTO_TEST_CASE(michells_ring_buckles_in_two_modes_at_once) {
   const TemporaryFolder folder;
-  const Outcome outcome = run_program({"continue", scene("ring-michell"), "--out", "run"}, folder.path());
+  const Outcome outcome =
+      run_program({"continue", shipped_scene("ring-michell"), "--out", "run"}, folder.path());
   BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
   const json specials = json::parse(slurp(folder.path() / "run" / "special_points.json"));
   BOOST_TEST_REQUIRE(specials.size() == 1u);

@@ -31,6 +31,15 @@ inline std::string slurp(const std::filesystem::path& path) {
   return text.str();
 }
 
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// Path of a scene that comes with the program. Its folder is what ctest names in WINDLASS_SCENES.
+inline std::string shipped_scene(const std::string& name) {
+  return std::string(std::getenv("WINDLASS_SCENES")) + "/" + name + ".toml";
+}
+
 /// Runs the program as a user does. The binary is what ctest names in WINDLASS_BINARY.
 /// @param folder  working directory of the program; its runs/ end up there
 /// @param before  shell words in front of the program: a limit to set, another program that runs it

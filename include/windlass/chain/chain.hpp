@@ -29,7 +29,8 @@ struct Link {
 /// Layout of a chain's unknowns.
 ///
 /// State x (ambient): for each joint its coordinates and, where it locates itself, its arclength s (where it is held, the
-/// force that holds it); for each link with unknown n that n; then the interior configurations of every arc. Increments dx follow the same order with tangent
+/// force that holds it); for each link with unknown n that n; then the interior configurations of every arc. Increments
+/// dx follow the same order with tangent
 /// sizes. The first block (joints and forces, `dense_size()`) couples the arcs; the rest is condensed arc by arc.
 ///
 /// Count of equations, the same as of unknowns: a joint gives one balance equation a coordinate and one location
@@ -81,7 +82,8 @@ class Chain {
 
   /// Factors [J B; Cᵀ D] at (x, loads); B, C: size()×k, D: k×k. @throws std::runtime_error if singular.
   void factor(const VectorXd& x, const Loads& loads, const MatrixXd& b, const MatrixXd& c, const MatrixXd& d);
-  /// A turn of the whole rod may cost nothing while it is flat. Its eigenvalue then does not count as negative, and where it makes the matrix
+  /// A turn of the whole rod may cost nothing while it is flat. Its eigenvalue then does not count as negative, and where
+  /// it makes the matrix
   /// singular (a half chain's only if the turn is even) solutions have no part along it.
   void expect_neutral_turn(contact::Parity parity) { neutral_turn_ = parity; }
   /// A flat rod that nothing pushes out of its plane stays there, exactly, however little that would cost.
@@ -159,7 +161,7 @@ class Chain {
   std::vector<Eigen::Index> out_of_plane() const;
   bool is_flat(const std::vector<Placed>& placed) const;
   /// Largest entry of a vector at those places.
-  double outside(const VectorXd& f) const;
+  double outside(const Eigen::Ref<const VectorXd>& f) const;
 
   void reduce(VectorXd& f, bool transposed) const;
   void expand(VectorXd& f, bool transposed) const;

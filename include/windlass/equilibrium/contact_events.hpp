@@ -35,9 +35,9 @@ struct ContactEvent {
   std::string name() const;
 };
 
-/// Does the stretch across the mid-point of a full chain end on one side only, its link there being the one given? What
-/// bounds it moves over the mid-point then.
-bool one_side_ends(const chain::Topology& topology, int link, double length, double other_length);
+/// Does a stretch across the mid-point of a full chain run out on one side only? What bounds it there moves over the
+/// mid-point then.
+bool one_side_ends(double length, double other_length);
 
 /// All events of a state, in a fixed order for a given topology.
 std::vector<ContactEvent> contact_events(const chain::Profile& profile, const chain::Topology& topology);

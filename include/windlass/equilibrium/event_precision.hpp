@@ -8,7 +8,8 @@
 namespace windlass::equilibrium {
 
 /// How far the mesh has moved a contact event: the distance in p(0) between its zero on the problem's mesh, at (x, p), and
-/// on the same elements with one stage more, doubled like all error estimates. Nothing where the state there is singular, as it is where an arc vanishes.
+/// on the same elements with one stage more, doubled like all error estimates. Nothing where the state there is
+/// singular, as it is where an arc vanishes.
 /// @param event  its name, see ContactEvent::name
 std::optional<double> event_precision(const RodProblem& problem, const Vector& x, const Vector& p,
                                       const std::string& event);
