@@ -6,6 +6,7 @@
 #include "continuation/bracket.hpp"
 #include "continuation/corrector.hpp"
 #include "continuation/step_length.hpp"
+#include "walk.hpp"
 
 namespace {
 
@@ -119,6 +120,44 @@ BOOST_AUTO_TEST_CASE(corrector_reports_failures) {
   auto nan = scalar([](double, const Vector&) { return std::nan(""); });
   report = correct(*nan, fixed(0.0), it, Options{});
   BOOST_TEST(report.failure == "the residual is not finite");
+}
+
+BOOST_AUTO_TEST_CASE(a_problem_may_bring_its_own_solver) {
+  // Plain Newton on the pieces that the library hands out; a whole branch goes through it.
+  struct Plain final : BorderedNewton {
+    int solves = 0;
+    CorrectorReport solve(Problem& problem, const Borders& borders, Iterate& iterate,
+                          const Options& options) override {
+      ++solves;
+      CorrectorReport report;
+      BorderedSystem system(problem, borders, iterate);
+      StoppingRule rule(options);
+      for (; !report.converged && report.iterations <= options.max_newton; ++report.iterations) {
+        const Vector& defect = system.defect();
+        system.factor();
+        const Vector delta = system.solve(defect);
+        report.converged = rule.last(system.length(delta), system.residual(), system.state_size());
+        system.add(delta);
+      }
+      return report;
+    }
+  };
+  class Own : public AlgebraicProblem {
+   public:
+    using AlgebraicProblem::AlgebraicProblem;
+    BorderedNewton* newton() override { return &solver; }
+    std::shared_ptr<Problem> clone() const override { return std::make_shared<Own>(*this); }
+    Plain solver;
+  };
+  auto own = std::make_shared<Own>(
+      1, [](const Vector& x, const Vector& p) { return vector({p[0] - 1.0 + (x[0] - 0.3) * (x[0] - 0.3)}); });
+  Options options;
+  options.lower = -1.0;
+  Walker walker(own, vector({-0.9}), vector({-0.4}), options);
+  const auto folds = of_type(walk(walker), PointType::fold);
+  BOOST_REQUIRE_EQUAL(folds.size(), 1u);
+  BOOST_TEST(std::abs(folds[0].p[0] - 1.0) < 1e-12);
+  BOOST_TEST(own->solver.solves > 5);
 }
 
 BOOST_AUTO_TEST_CASE(find_zero_shuts_in) {

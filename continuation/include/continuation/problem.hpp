@@ -11,6 +11,7 @@ namespace continuation {
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
+class BorderedNewton;
 class Problem;
 
 /// What follows an event: the problem that holds beyond it, and its state there.
@@ -103,6 +104,10 @@ class Problem {
   /// Numbers that do not depend on discretisation, nor on which of two mirror images x is: two states with
   /// equal fingerprints are the same solution (up to mirror image). The default is x itself.
   virtual Vector fingerprint(const Vector& x, const Vector& p);
+
+  /// The problem's own nonlinear solver, which lives as long as the problem; null (the default): the
+  /// library's ChordNewton. It may keep objects between solves; what it keeps must not change the results.
+  virtual BorderedNewton* newton() { return nullptr; }
 
   /// An independent copy (own factorisation, own discretisation).
   virtual std::shared_ptr<Problem> clone() const = 0;

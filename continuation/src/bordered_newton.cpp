@@ -1,0 +1,144 @@
+#include "continuation/bordered_newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace continuation {
+
+BorderedSystem::BorderedSystem(Problem& problem, const Borders& borders, Iterate& iterate)
+    : problem_(problem), borders_(borders), it_(iterate), n_(problem.size()), defect_(size()) {}
+
+const Vector& BorderedSystem::defect() {
+  Vector f = problem_.residual(it_.x, it_.p);
+  const Eigen::Index m = borders_.psi.cols();
+  if (m > 0) f += borders_.psi * it_.y.tail(m);
+  residual_ = f.size() ? f.lpNorm<Eigen::Infinity>() : 0.0;
+  if (!std::isfinite(residual_)) throw std::runtime_error("the residual is not finite");
+  defect_.head(n_) = -f;
+  defect_.tail(size() - n_) = borders_.g - borders_.c.transpose() * it_.u - borders_.d * it_.y;
+  return defect_;
+}
+
+void BorderedSystem::factor() {
+  Matrix columns(n_, borders_.c.cols());
+  if (parameter_free()) columns.col(0) = problem_.parameter_derivative(it_.x, it_.p, borders_.parameter);
+  if (borders_.psi.cols() > 0) columns.rightCols(borders_.psi.cols()) = borders_.psi;
+  problem_.factor(it_.x, it_.p, columns, borders_.c, borders_.d);
+  ++factorizations_;
+}
+
+Vector BorderedSystem::solve(const Vector& r) {
+  Vector delta = problem_.solve(r.head(n_), r.tail(size() - n_));
+  if (!delta.allFinite()) throw std::runtime_error("Newton's correction is not finite");
+  return delta;
+}
+
+double BorderedSystem::length(const Vector& delta) const {
+  const Vector dx = delta.head(n_);
+  double square = problem_.inner(dx, dx) / (borders_.state_scale * borders_.state_scale);
+  if (parameter_free()) square += std::pow(delta[n_] / borders_.scale, 2);
+  return std::sqrt(square);
+}
+
+double BorderedSystem::state_size() const {
+  const auto n = static_cast<double>(it_.x.size());
+  return n == 0.0 ? 0.0 : it_.x.norm() / (std::sqrt(n) * borders_.state_scale);
+}
+
+void BorderedSystem::add(const Vector& delta) {
+  const Vector dx = delta.head(n_);
+  it_.x = problem_.retract(it_.x, dx);
+  it_.u += dx;
+  it_.y += delta.tail(size() - n_);
+  if (parameter_free()) it_.p[borders_.parameter] += delta[n_];
+}
+
+bool StoppingRule::slow(double length) const {
+  const double tolerance = options_.newton_tolerance, theta = contraction(length);
+  if (length <= tolerance) return false;
+  return length * std::pow(theta, 3) > tolerance ||
+         (taken_ > 1 && theta > 0.1 && length * theta > tolerance);  // they hardly converge
+}
+
+bool StoppingRule::last(double length, double residual, double state_size) {
+  const double tolerance = options_.newton_tolerance;
+  // What rounding may leave where the state has large entries; taken only once corrections no longer shrink.
+  const double rounding = tolerance * std::max(1.0, state_size);
+  bool stagnant = false;
+  if (taken_ > 0) {
+    if (contraction(length) > 1.0 && length > 10.0 * rounding)
+      throw std::runtime_error("Newton's corrections grow");
+    stagnant = contraction(length) > 0.2;
+  }
+  // Equations that are nearly singular turn a residual that is all rounding into corrections above the tolerance.
+  const bool exhausted = stagnant && residual <= 1e-4 * options_.residual_tolerance;
+  const bool small = length <= tolerance || (stagnant && length <= (exhausted ? 10.0 : 1.0) * rounding);
+  // Where corrections are this small twice, what is left of F is the rounding of its large terms (those of an arc
+  // about to vanish, say).
+  const bool rounded = taken_ > 0 && previous_ <= tolerance && length <= 0.1 * tolerance;
+  ++taken_;
+  previous_ = length;
+  return small && (rounded || residual <= options_.residual_tolerance);
+}
+
+namespace {
+
+void iterate(BorderedSystem& system, const Options& options, CorrectorReport& report) {
+  StoppingRule rule(options);
+  double first = 0.0;
+  for (int k = 0;; ++k) {
+    const Vector& defect = system.defect();
+    report.residual = system.residual();
+    bool fresh = k == 0;
+    if (fresh) system.factor();
+    Vector delta = system.solve(defect);
+    double length = system.length(delta);
+    if (k == 0) first = length;
+    if (k == 1) report.contraction = length / first;
+    if (k > 0 && rule.slow(length)) {
+      system.factor();
+      delta = system.solve(defect);
+      length = system.length(delta);
+      fresh = true;
+    }
+    const bool done = rule.last(length, report.residual, system.state_size());
+    report.increment = length;
+    if (done && fresh && rule.negligible(length)) {
+      report.factored_here = true;
+    } else {
+      system.add(delta);
+    }
+    if (done) {
+      report.converged = true;
+      return;
+    }
+    if (++report.iterations > options.max_newton) {
+      std::ostringstream message;
+      message << "no convergence in " << options.max_newton << " corrections (increment " << length
+              << ", residual " << report.residual << ")";
+      report.failure = message.str();
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+CorrectorReport ChordNewton::solve(Problem& problem, const Borders& borders, Iterate& iterate,
+                                   const Options& options) {
+  CorrectorReport report;
+  BorderedSystem system(problem, borders, iterate);
+  try {
+    continuation::iterate(system, options, report);
+  } catch (const std::domain_error& error) {
+    report.failure = std::string("outside the domain: ") + error.what();
+  } catch (const std::runtime_error& error) {
+    report.failure = error.what();
+  }
+  report.factorizations = system.factorizations();
+  return report;
+}
+
+}  // namespace continuation
