@@ -108,7 +108,7 @@ scene::Scene RodProblem::scene_at(const Vector& p) const {
 }
 
 Vector RodProblem::residual(const Vector& x, const Vector& p) {
-  factored_x_.resize(0);  // the index reads the arcs' gradients too, which now belong to x
+  factored_x_.resize(0);      // the index reads the arcs' gradients too, which now belong to x
   const Loads at = loads(p);  // may rebuild the chain
   return chain_->residual(x, at);
 }
