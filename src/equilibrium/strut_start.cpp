@@ -15,7 +15,7 @@ namespace {
 std::optional<Started> strut_near(const scene::Scene& scene, const chain::Profile& shape, double thrust,
                                   const std::vector<std::string>& keys) {
   constexpr int elements = 8;  // with order 12 the straight strut's buckling loads are exact to 1e-13
-  const Topology topology{{Stretch::tail}, {}, true, false};
+  const Topology topology{{Stretch::tail}, true, false};
   const std::vector<ArcMesh> meshes{{chain::uniform_mesh(elements), start_stages}};
   auto problem = std::make_shared<RodProblem>(scene, true, topology, meshes, keys);
   const double half_length = loads_of(scene).half_length;
