@@ -35,8 +35,7 @@ int negative_eigenvalues(MatrixXd a) {
 
 }  // namespace
 
-void Chain::add_gauges(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads,
-                       MatrixXd& dense) const {
+void Chain::add_gauges(const Numbering& numbering, Purpose purpose, const VectorXd& x, MatrixXd& dense) const {
   for (int j = 0; j < joint_count(); ++j) {
     const double share = slide_share(j);
     if (share == 0.0) continue;
@@ -55,11 +54,7 @@ void Chain::add_gauges(Purpose purpose, const Numbering& numbering, const Vector
     const bool edge = joints_[j]->kind() == JointKind::edge;
     hold(numbering.spin, joints_[j]->spin_coordinate(), edge ? share : 2.0 * share);
   }
-  if (numbering.phase < 0) return;
-  const VectorXd motion = phase_motion(purpose, numbering, x, loads);
-  dense.row(numbering.phase) += motion.head(numbering.size).transpose();
-  dense.col(numbering.phase) += motion.head(numbering.size);
-  dense(numbering.phase, numbering.phase) = -1.0;
+  if (numbering.phase >= 0) dense(numbering.phase, numbering.phase) = -1.0;
 }
 
 MatrixXd Chain::variation_matrix(Purpose purpose, const Numbering& numbering, const VectorXd& x,
@@ -67,7 +62,7 @@ MatrixXd Chain::variation_matrix(Purpose purpose, const Numbering& numbering, co
   MatrixXd dense = MatrixXd::Zero(numbering.size, numbering.size);
   for (int i = 0; i < link_count(); ++i)
     add_joint_terms(purpose, numbering, x, loads, i, gradients_[i], dense);
-  add_gauges(purpose, numbering, x, loads, dense);
+  add_gauges(numbering, purpose, x, dense);
   return dense;
 }
 

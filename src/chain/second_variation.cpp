@@ -58,8 +58,16 @@ Chain::SecondVariation Chain::second_variation(const VectorXd& x, const Loads& l
     for (Eigen::Index j = 0; j < dense.cols(); ++j)
       if (dense(i, j) != 0.0) entries.emplace_back(i, j, dense(i, j));
   if (numbering.phase >= 0) {
-    const VectorXd motion = phase_motion(purpose, numbering, x, loads);
-    for (Eigen::Index k = numbering.size; k < total; ++k) {
+    // K + τ M g gᵀ M, g of unit size: moves the phase out of the way and, as K g = 0, leaves all other eigenvectors as
+    // they are. A straight rod has no such motion.
+    constexpr double straight = 1e-6;  // [rad √length]
+    VectorXd motion = phase_motion(purpose, numbering, x, loads);
+    const double size = std::sqrt(motion.dot(out.metric * motion));
+    const double stiffest = out.matrix.diagonal().cwiseAbs().maxCoeff();
+    motion = size > straight ? VectorXd(out.metric * motion * (std::sqrt(stiffest) / size))
+                             : VectorXd(VectorXd::Zero(total));
+    for (Eigen::Index k = 0; k < total; ++k) {
+      if (motion(k) == 0.0) continue;
       entries.emplace_back(k, numbering.phase, motion(k));
       entries.emplace_back(numbering.phase, k, motion(k));
     }

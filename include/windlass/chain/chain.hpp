@@ -183,8 +183,7 @@ class Chain {
   void add_joint_terms(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads,
                        int link, const bvp::EndsVector& gradient, MatrixXd& dense) const;
   void add_locations(const VectorXd& x, MatrixXd& dense) const;
-  void add_gauges(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads,
-                  MatrixXd& dense) const;
+  void add_gauges(const Numbering& numbering, Purpose purpose, const VectorXd& x, MatrixXd& dense) const;
   /// The dense block of a variation, interiors condensed with the last factorisation; symmetric.
   MatrixXd condensed_variation(Purpose purpose, const Numbering& numbering, const VectorXd& x,
                                const Loads& loads) const;
