@@ -39,6 +39,16 @@ toml::table parse(const std::string& text, const std::string& file) {
   }
 }
 
+/// An array or a date on one line, cut where it is long.
+std::string shown_as_it_stands(const toml::node& node) {
+  std::ostringstream text;
+  node.visit([&](const auto& value) { text << value; });
+  std::string line = text.str();
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  constexpr std::size_t longest = 40;
+  return line.size() > longest ? line.substr(0, longest) + " ..." : line;
+}
+
 Entry make_entry(std::string key, std::string place, const toml::node& node) {
   Entry entry{std::move(key), std::move(place), OtherValue{}, {}};
   if (const auto* text = node.as_string()) {
@@ -54,7 +64,7 @@ Entry make_entry(std::string key, std::string place, const toml::node& node) {
     entry.value = flag->get();
     entry.shown = flag->get() ? "true" : "false";
   } else {
-    entry.shown = node.is_array() ? "[...]" : "a date or time";
+    entry.shown = shown_as_it_stands(node);
   }
   return entry;
 }
@@ -132,8 +142,10 @@ Document read_document(const std::filesystem::path& path, std::span<const std::s
                                   [&](const Entry& other) { return other.key == entry.key; });
     if (old == document.entries.end())
       document.entries.push_back(std::move(entry));
-    else
+    else {
+      if (old->place != "--set") document.replaced[old->key] = *old;
       *old = std::move(entry);
+    }
   }
   return document;
 }

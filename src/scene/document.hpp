@@ -28,8 +28,9 @@ struct Entry {
 
 struct Document {
   std::string file;
-  std::vector<Entry> entries;         ///< in file order, overrides replacing what they override
-  std::map<std::string, int> tables;  ///< line of each [table]
+  std::vector<Entry> entries;             ///< in file order, overrides replacing what they override
+  std::map<std::string, int> tables;      ///< line of each [table]
+  std::map<std::string, Entry> replaced;  ///< entries of the file that an override took the place of
 
   const Entry* find(std::string_view key) const;
   /// `capstan.toml:5`: where a missing key of that table belongs.

@@ -5,9 +5,10 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 #include "document.hpp"
-
+#include "planned.hpp"
 #include "rules.hpp"
 #include "values.hpp"
 #include "windlass/scene/keys.hpp"
@@ -21,7 +22,7 @@ namespace {
 /// values, then what must hold between them.
 class Resolver {
  public:
-  explicit Resolver(const Document& document) : document_(document) {}
+  Resolver(const Document& document, const ReadOptions& options) : document_(document), options_(options) {}
 
   Scene resolve(const std::string& name) {
     check_names(document_);
@@ -31,7 +32,7 @@ class Resolver {
     find_units();
     for (const Entry& entry : document_.entries) fill(entry);
     derive();
-    check_rules(document_, scene_);
+    check_rules(document_, scene_, options_.restart);
     scene_.resolved_toml = to_toml(scene_);
     return scene_;
   }
@@ -43,9 +44,13 @@ class Resolver {
     const Entry* entry = document_.find("continuation.parameter");
     if (!entry) return;
     const std::string name = read_text(*entry, *find_key(entry->key));
-    if (!is_numeric_key(name))
-      throw SceneError(fmt::format("{}must be a numeric key of the scene; did you mean {}?", entry->prefix(),
-                                   nearest_key(name)));
+    if (!is_numeric_key(name)) {
+      std::string list;
+      for (const Key& key : keys())
+        if (key.is_parameter) list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", key.name);
+      throw SceneError(
+          fmt::format("{}must be a key that a branch can be followed in, one of {}", entry->prefix(), list));
+    }
     scene_.continuation->parameter = name;
   }
 
@@ -55,16 +60,25 @@ class Resolver {
   }
 
   /// In a physical scene every length, force and so on has a unit; only 0 and "inf" need none.
+  /// Where some have one and some have not, the fewer are the mistake.
   void check_all_have_units() const {
+    std::vector<const Entry*> bare, with_unit;
     for (const Entry& entry : document_.entries) {
       const Key& key = *find_key(entry.key);
       const Key& like = meaning(key);
       if (key.kind == ValueKind::text || !is_dimensional(like.dimension)) continue;
       const Number number = read_number(entry, key, like.dimension, like.range);
-      const bool bare = !number.has_unit && std::isfinite(number.value) && number.value != 0.0;
-      if (bare && (physical_ || key.name == "rod.youngs_modulus"))
-        throw SceneError(entry.prefix() + needs_unit(like));
+      if (number.has_unit) with_unit.push_back(&entry);
+      if (number.has_unit || !std::isfinite(number.value) || number.value == 0.0) continue;
+      if (key.name == "rod.youngs_modulus") throw SceneError(entry.prefix() + needs_unit(key, ""));
+      bare.push_back(&entry);
     }
+    if (bare.empty() || with_unit.empty()) return;
+    if (with_unit.size() < bare.size())
+      throw SceneError(with_unit.front()->prefix() +
+                       "must be a number without a unit, like the other quantities of this scene");
+    throw SceneError(bare.front()->prefix() + needs_unit(meaning(*find_key(bare.front()->key)),
+                                                         ", like the other quantities of this scene"));
   }
 
   double in_si(const char* name) const {
@@ -74,10 +88,8 @@ class Resolver {
     return read_number(*entry, key, key.dimension, key.range).value;
   }
 
-  std::string needs_unit(const Key& key) const {
-    std::string text = fmt::format("must be {}", description(key.dimension));
-    if (physical_) text += fmt::format(": the scene is physical, since {} has a unit", physical_->key);
-    return text;
+  static std::string needs_unit(const Key& key, const char* why) {
+    return fmt::format("must be {}{}", description(key.dimension), why);
   }
 
   /// Dimensionless, physical, or resolved: the scales are then given and both ways of writing have a meaning.
@@ -95,8 +107,8 @@ class Resolver {
       return;
     }
     for (const Entry& entry : document_.entries) {
-      const Dimension dimension = meaning(*find_key(entry.key)).dimension;
-      if (!physical_ && is_written_with_unit(entry, dimension)) physical_ = &entry;
+      const Key& key = *find_key(entry.key);
+      physical_ = is_written_with_unit(entry, key, meaning(key).dimension) || physical_;
     }
     check_all_have_units();
     if (physical_) scene_.units = Units::of(unit_of_length(), bending_stiffness());
@@ -130,7 +142,9 @@ class Resolver {
     const Key& like = meaning(key);
     const Number number = read_number(entry, key, like.dimension, like.range);
     const double scale = number.has_unit ? scale_of(*scene_.units, like.dimension) : 1.0;
-    if (key.set) key.set(scene_, number.value / scale);
+    const double value = number.value / scale;
+    check_size(entry, like, value);
+    if (key.set) key.set(scene_, value);
   }
 
   /// What follows from other keys.
@@ -151,15 +165,42 @@ class Resolver {
   }
 
   const Document& document_;
+  const ReadOptions& options_;
   Scene scene_;
-  const Entry* physical_ = nullptr;  ///< the first entry with a unit
+  bool physical_ = false;  ///< some entry has a unit
 };
 
 }  // namespace
 
-Scene read_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
-  const Document document = read_document(path, overrides);
-  return Resolver(document).resolve(path.stem().string());
+namespace {
+
+bool of_the_file(const Entry& entry) { return entry.place != "--set"; }
+
+/// Where --set names another parameter than the file, the file's first and last value are of the other one.
+void drop_values_of_another_parameter(Document& document) {
+  const Entry* parameter = document.find("continuation.parameter");
+  if (!parameter || of_the_file(*parameter)) return;
+  const auto old = document.replaced.find(parameter->key);
+  const std::string before = old == document.replaced.end() || !std::get_if<std::string>(&old->second.value)
+                                 ? Continuation{}.parameter
+                                 : std::get<std::string>(old->second.value);
+  if (const auto* now = std::get_if<std::string>(&parameter->value); now && *now == before) return;
+  std::erase_if(document.entries, [](const Entry& entry) {
+    return of_the_file(entry) && (entry.key == "continuation.from" || entry.key == "continuation.to");
+  });
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& path, std::span<const std::string> overrides,
+                 const ReadOptions& options) {
+  Document document = read_document(path, overrides);
+  settle_planned(document);
+  drop_values_of_another_parameter(document);
+  if (options.restart)
+    std::erase_if(document.entries,
+                  [](const Entry& entry) { return of_the_file(entry) && entry.key == "continuation.from"; });
+  return Resolver(document, options).resolve(path.stem().string());
 }
 
 }  // namespace windlass::scene

@@ -77,7 +77,7 @@ void check_strut(const Document& document, const Scene& scene) {
   if (scene.rod.infinite()) forbid(document, "rod.length", "must be finite without [cylinder]");
 }
 
-void check_continuation(const Document& document, const Scene& scene) {
+void check_continuation(const Document& document, const Scene& scene, bool restart) {
   const Continuation& c = *scene.continuation;
   const bool of_capstan = c.parameter == "load.tension" || c.parameter == "load.angle";
   const bool of_strut = c.parameter == "load.thrust" || c.parameter.starts_with("ends.");
@@ -87,7 +87,7 @@ void check_continuation(const Document& document, const Scene& scene) {
         document.place_of_table("continuation"), c.parameter, scene.has_cylinder ? "with" : "without"));
   if (!document.find("continuation.to"))
     throw missing(document, "continuation.to", fmt::format("the last value of {}", c.parameter));
-  if (!std::isfinite(c.from) || !std::isfinite(c.to) || c.from == c.to)
+  if (!std::isfinite(c.from) || !std::isfinite(c.to) || (c.from == c.to && !restart))
     forbid(document, "continuation.to",
            fmt::format("must be finite and differ from continuation.from = {}", c.from));
   if (c.step_max > 0.0 && c.step_min > c.step_max)
@@ -106,7 +106,7 @@ SceneError missing(const Document& document, const std::string& key, const std::
   return SceneError(fmt::format("{}: {}: missing; {}", document.place_of_table(table), key, why));
 }
 
-void check_rules(const Document& document, const Scene& scene) {
+void check_rules(const Document& document, const Scene& scene, bool restart) {
   if (!document.find("rod.length"))
     throw missing(document, "rod.length", fmt::format("{}", find_key("rod.length")->allowed()));
   if (document.find("scale.length"))
@@ -117,7 +117,7 @@ void check_rules(const Document& document, const Scene& scene) {
   else
     check_strut(document, scene);
   check_ends(document, scene);
-  if (scene.continuation) check_continuation(document, scene);
+  if (scene.continuation) check_continuation(document, scene, restart);
   for (const char c : {'/', '\0'})
     if (scene.name.find(c) != std::string::npos || scene.name.empty() || scene.name.front() == '.')
       forbid(document, "name", "must be a file name: no \"/\", no leading \".\"");

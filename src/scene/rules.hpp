@@ -12,7 +12,8 @@ namespace windlass::scene {
 /// `capstan.toml:5: load.angle: missing; with [cylinder] ...`, at the line of the table it belongs to.
 SceneError missing(const Document& document, const std::string& key, const std::string& why);
 
+/// @param restart  a branch begins at a stored point, wherever continuation.from is
 /// @throws SceneError for the first rule that does not hold
-void check_rules(const Document& document, const Scene& scene);
+void check_rules(const Document& document, const Scene& scene, bool restart);
 
 }  // namespace windlass::scene

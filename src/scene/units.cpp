@@ -60,6 +60,9 @@ Unit parse_unit(std::string_view name) {
 /// Empty if the two are not of the same kind.
 std::optional<double> convert(double value, const Unit& from, const char* si_name) {
   const Unit si = parse_unit(si_name);
+  // udunits would also convert a length to a curvature, by its reciprocal.
+  const Unit ratio(ut_divide(from.get(), si.get()), ut_free);
+  if (!ratio || !ut_is_dimensionless(ratio.get())) return std::nullopt;
   const std::unique_ptr<cv_converter, decltype(&cv_free)> converter(ut_get_converter(from.get(), si.get()),
                                                                     cv_free);
   if (!converter) return std::nullopt;

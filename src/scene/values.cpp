@@ -27,6 +27,13 @@ std::string allowed_text(const Key& key, Dimension dimension, const Range& range
   return text;
 }
 
+/// What a text that does not begin like a quantity could have been instead.
+std::string or_number(const std::string& text, const Key& key) {
+  const bool quantity =
+      !text.empty() && std::string_view("+-.0123456789").find(text[0]) != std::string_view::npos;
+  return quantity || key.name == "rod.youngs_modulus" ? "" : ", or a number in a scene without units";
+}
+
 /// Table part of a name: "load" of "load.tension".
 std::string table_of(const std::string& name) {
   const auto dot = name.find('.');
@@ -35,9 +42,27 @@ std::string table_of(const std::string& name) {
 
 }  // namespace
 
-bool is_written_with_unit(const Entry& entry, Dimension dimension) {
+bool is_written_with_unit(const Entry& entry, const Key& key, Dimension dimension) {
   const auto* text = std::get_if<std::string>(&entry.value);
-  return is_dimensional(dimension) && text && *text != "inf";
+  if (!is_dimensional(dimension) || !text || *text == "inf") return false;
+  try {
+    parse_quantity(*text, dimension);
+  } catch (const std::invalid_argument& error) {
+    throw SceneError(entry.prefix() + error.what() + or_number(*text, key));
+  }
+  return true;
+}
+
+void check_size(const Entry& entry, const Key& key, double dimensionless) {
+  // The equations add such numbers, or their products, to moments of size EI/ρ = 1.
+  constexpr double most = 1e12, least = 1e-12;
+  const double size = std::abs(dimensionless);
+  const bool too_small = key.is_parameter && size > 0.0 && size < least;
+  if (std::isinf(dimensionless) || (size <= most && !too_small)) return;
+  throw SceneError(fmt::format("{}must be {}{} {:g} in size{}", entry.prefix(),
+                               key.range.text() == "finite" ? "" : key.range.text() + " and ",
+                               too_small ? "at least" : "at most", too_small ? least : most,
+                               is_dimensional(key.dimension) ? ", in units of EI and the length rho" : ""));
 }
 
 Number read_number(const Entry& entry, const Key& key, Dimension dimension, const Range& range) {
@@ -57,10 +82,19 @@ Number read_number(const Entry& entry, const Key& key, Dimension dimension, cons
   } else {
     throw SceneError(entry.prefix() + allowed_text(key, dimension, range));
   }
+  constexpr double largest =
+      1e30;  // of SI units; beyond it products of a few such numbers leave the range of doubles
+  if (number.has_unit && number.value != 0.0 &&
+      !(std::abs(number.value) < largest && std::abs(number.value) > 1.0 / largest))
+    throw SceneError(
+        fmt::format("{}must be between {:g} and {:g} in SI units", entry.prefix(), 1.0 / largest, largest));
   const bool whole = key.kind != ValueKind::integer || number.value == std::floor(number.value);
   if (!range.contains(number.value) || !whole)
     throw SceneError(entry.prefix() +
-                     (whole && key.kind != ValueKind::integer ? "must be " + range.text() : key.allowed()));
+                     (whole && key.kind != ValueKind::integer ? "must be " + range.text() : key.allowed()) +
+                     (std::isfinite(number.value) || range.text() == "finite" || range.allows_infinity
+                          ? ""
+                          : " and finite"));
   return number;
 }
 

@@ -20,8 +20,12 @@ Number read_number(const Entry& entry, const Key& key, Dimension dimension, cons
 /// @throws SceneError
 std::string read_text(const Entry& entry, const Key& key);
 
-/// True if the value is written with a unit ("inf" has none).
-bool is_written_with_unit(const Entry& entry, Dimension dimension);
+/// True if the value is written with a unit ("inf" has none). @throws SceneError for a text that is no quantity
+bool is_written_with_unit(const Entry& entry, const Key& key, Dimension dimension);
+
+/// The number as the equations see it: what double precision cannot resolve beside quantities of size 1 is refused.
+/// @throws SceneError
+void check_size(const Entry& entry, const Key& key, double dimensionless);
 
 /// Known keys and tables only. @throws SceneError with the nearest known key
 void check_names(const Document& document);

@@ -64,10 +64,10 @@ BOOST_AUTO_TEST_CASE(wrong_unit) {
 }
 
 BOOST_AUTO_TEST_CASE(dimensionless_and_physical_mixed) {
-  expect_refusal(
-      "tension = 1.0", "tension = \"2 N\"",
-      "capstan.toml:2: rod.length = 30: must be a length such as \"4 mm\": the scene is physical, since "
-      "load.tension has a unit");
+  expect_refusal("tension = 1.0", "tension = \"2 N\"",
+                 "capstan.toml:5: load.tension = \"2 N\": must be a number without a unit, like the other "
+                 "quantities of this "
+                 "scene");
 }
 
 BOOST_AUTO_TEST_CASE(truncated_toml) {
