@@ -50,14 +50,10 @@ MatrixXd Chain::variation_matrix(Purpose purpose, const Numbering& numbering, co
   return dense;
 }
 
-int Chain::index(const VectorXd& x, const Loads& loads, Parity parity) const {
-  if (parity == Parity::odd && !half()) return 0;
-  const Purpose purpose = parity == Parity::odd ? Purpose::odd : Purpose::even;
-  const Numbering numbering = number(purpose);
+MatrixXd Chain::condensed_variation(Purpose purpose, const Numbering& numbering, const VectorXd& x,
+                                    const Loads& loads) const {
   MatrixXd dense = variation_matrix(purpose, numbering, x, loads);
-  int negative = 0;
   for (int i = 0; i < link_count(); ++i) {
-    negative += links_[i].arc->negative_pivots();
     const Local l = local(purpose, numbering, x, loads, i);
     bvp::EndsMatrix hessian = with_commutator(*links_[i].arc, condensed_[i], gradients_[i]);
     if (purpose == Purpose::odd && i == 0 && links_[0].arc->ambient() == 4)  // see Joint::attach_odd
@@ -66,9 +62,20 @@ int Chain::index(const VectorXd& x, const Loads& loads, Parity parity) const {
     for (std::size_t r = 0; r < l.dofs.size(); ++r)
       for (std::size_t s = 0; s < l.dofs.size(); ++s) dense(l.dofs[r], l.dofs[s]) += share(r, s);
   }
-  dense = (0.5 * (dense + dense.transpose())).eval();
-  negative += neutral_turn_ ? negative_but_turn(dense, numbering.location) : negative_eigenvalues(dense);
+  return 0.5 * (dense + dense.transpose());
+}
+
+int Chain::negative_directions(const MatrixXd& dense, const Numbering& numbering) const {
+  int negative = neutral_turn_ ? negative_but_turn(dense, numbering.location) : negative_eigenvalues(dense);
+  for (const Link& link : links_) negative += link.arc->negative_pivots();
   return negative - numbering.constraints;
+}
+
+int Chain::index(const VectorXd& x, const Loads& loads, Parity parity) const {
+  if (parity == Parity::odd && !half()) return 0;
+  const Purpose purpose = parity == Parity::odd ? Purpose::odd : Purpose::even;
+  const Numbering numbering = number(purpose);
+  return negative_directions(condensed_variation(purpose, numbering, x, loads), numbering);
 }
 
 }  // namespace windlass::chain

@@ -39,7 +39,7 @@ Table points_table(PointColumns::Points& p) {
       {"has_stability", "1", "1 when index and eigenvalues were computed", &p.has_stability},
       {"index", "1", "number of negative eigenvalues", &p.index},
       {"inertia_index", "1", "the same from the inertia of a factorisation", &p.inertia_index},
-      {"degenerate", "1", "1 when a contact carries no force", &p.degenerate},
+      {"degenerate", "1", "1 when a contact carries no force or an eigenvalue is zero to rounding", &p.degenerate},
       {"elements", "1", "mesh elements", &p.elements},
       {"stages", "1", "collocation stages an element", &p.stages},
       {"unknowns", "1", "discrete unknowns", &p.unknowns},

@@ -114,6 +114,7 @@ class Chain {
   Eigen::SparseMatrix<double> jacobian(const VectorXd& x, const Loads& loads) const;
 
  private:
+  friend class Variation;
   /// Does the chain start at a symmetry point, so that variations of the other parity are to be counted too?
   bool half() const { return fixed_s_[0] == 0.0; }
   /// Which unknowns the dense block holds: those of equilibrium, or those of a variation at fixed contact edges.
@@ -156,6 +157,11 @@ class Chain {
   Eigen::SparseMatrix<double> sparse_hessian(Purpose purpose, const Placed& placed, int link) const;
   MatrixXd variation_matrix(Purpose purpose, const Numbering& numbering, const VectorXd& x,
                             const Loads& loads) const;
+  /// The second variation condensed to the dense block, from the arcs' last factorisation.
+  MatrixXd condensed_variation(Purpose purpose, const Numbering& numbering, const VectorXd& x,
+                               const Loads& loads) const;
+  /// Negative directions of that and of the arcs, less the constraints' and a neutral turn's.
+  int negative_directions(const MatrixXd& dense, const Numbering& numbering) const;
 
   /// Places in an increment that move a flat rod out of its plane.
   std::vector<Eigen::Index> out_of_plane() const;

@@ -78,7 +78,7 @@ struct Stability {
   int index = 0;                    ///< number of negative eigenvalues (SLEPc and inertia agree)
   int inertia_index = 0;            ///< the second opinion, from the factorisation
   std::vector<double> eigenvalues;  ///< lowest first
-  bool degenerate = false;          ///< a contact carries zero force to within tolerance
+  bool degenerate = false;          ///< a contact carries no force, or an eigenvalue is zero to rounding
   std::vector<Mode> modes;
 };
 
