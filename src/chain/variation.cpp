@@ -38,10 +38,16 @@ Variation::Variation(const Chain& chain, const VectorXd& x, const Loads& loads, 
 
 void Variation::add_part(const Chain& chain, const Chain::Numbering& numbering, const VectorXd& x,
                          const Loads& loads, Chain::Purpose purpose, int link) {
-  Part part{chain.links_[link].arc.get(), chain.local(purpose, numbering, x, loads, link),
-            chain.place(x, loads, link), chain.interior_row_[link] - chain.dense_size_ + dense_size_, points_,
-            {},        numbering.location[link], numbering.location[link + 1],
-            {},        {}};
+  Part part{chain.links_[link].arc.get(),
+            chain.local(purpose, numbering, x, loads, link),
+            chain.place(x, loads, link),
+            chain.interior_row_[link] - chain.dense_size_ + dense_size_,
+            points_,
+            {},
+            numbering.location[link],
+            numbering.location[link + 1],
+            {},
+            {}};
   const Arc& arc = *part.arc;
   const int d = arc.tangent(), rows = arc.interior_tangent() + 2 * d;
   part.root = arc.metric(part.placed.point()).head(rows).cwiseSqrt();

@@ -80,8 +80,7 @@ Stability analyse(RodProblem& given, const Vector& at_x, const Vector& p, int co
   std::vector<Mode> all;
   for (const Parity parity : {Parity::even, Parity::odd}) {
     if (parity == Parity::odd && !is_half(problem)) continue;
-    const Spectrum spectrum =
-        solver.lowest(chain::Variation(problem.chain(), x, loads, parity), count);
+    const Spectrum spectrum = solver.lowest(chain::Variation(problem.chain(), x, loads, parity), count);
     out.index += spectrum.index;
     out.degenerate |= spectrum.rounded;
     for (Eigen::Index k = 0; k < spectrum.eigenvalues.size(); ++k) {

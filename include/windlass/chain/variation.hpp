@@ -18,9 +18,9 @@ class Variation {
   /// is in use.
   Variation(const Chain& chain, const VectorXd& x, const Loads& loads, contact::Parity parity);
 
-  Eigen::Index size() const { return size_; }        ///< unknowns v
-  Eigen::Index points() const { return points_; }    ///< numbers in Wᵀv
-  int negative() const { return negative_; }         ///< negative μ, by the inertia of the factors
+  Eigen::Index size() const { return size_; }      ///< unknowns v
+  Eigen::Index points() const { return points_; }  ///< numbers in Wᵀv
+  int negative() const { return negative_; }       ///< negative μ, by the inertia of the factors
   contact::Parity parity() const { return parity_; }
 
   VectorXd rotations(const VectorXd& v) const;  ///< Wᵀ v; shape points()
@@ -36,10 +36,10 @@ class Variation {
     const Arc* arc;
     Chain::Local local;
     Chain::Placed placed;
-    Eigen::Index interior, first;         ///< of v, of Wᵀv
-    VectorXd root;                        ///< of the mass of interior and end configurations
-    Eigen::Index left, right;             ///< places in v of a touch's arclength, −1: none
-    VectorXd left_shift, right_shift;     ///< rotation at a material point as the touch moves by 1
+    Eigen::Index interior, first;      ///< of v, of Wᵀv
+    VectorXd root;                     ///< of the mass of interior and end configurations
+    Eigen::Index left, right;          ///< places in v of a touch's arclength, −1: none
+    VectorXd left_shift, right_shift;  ///< rotation at a material point as the touch moves by 1
   };
   void add_part(const Chain& chain, const Chain::Numbering& numbering, const VectorXd& x, const Loads& loads,
                 Chain::Purpose purpose, int link);

@@ -13,8 +13,8 @@ struct Spectrum {
   Eigen::VectorXd eigenvalues;   ///< μ ascending; at least the asked number, or all there are [EI/ρ²]
   Eigen::MatrixXd eigenvectors;  ///< one column each, vᵀMv = 1, largest entry positive; size of K × count
   int index = 0;                 ///< negative eigenvalues found; zero to rounding counts as positive
-  int inertia_index = 0;         ///< the same from the inertia of K: its negative pivots less the constraints'
-  bool rounded = false;          ///< one is zero to rounding: its sign means nothing
+  int inertia_index = 0;  ///< the same from the inertia of K: its negative pivots less the constraints'
+  bool rounded = false;   ///< one is zero to rounding: its sign means nothing
   bool agrees() const { return index == inertia_index; }
 };
 
