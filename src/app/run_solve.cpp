@@ -146,7 +146,9 @@ void print_summary(const equilibrium::Equilibria& found, const scene::Scene& sce
   print_quantity("energy", solution.energy, physical.moment(solution.energy));
   if (solution.stability) {
     fmt::print("  {:<12} index {}{}, lowest eigenvalues", "stability", solution.stability->index,
-               solution.stability->degenerate ? " (a contact carries no force)" : "");
+               solution.stability->degenerate
+                   ? " (degenerate: a contact carries no force, or an eigenvalue is zero to rounding)"
+                   : "");
     for (std::size_t k = 0; k < std::min<std::size_t>(3, solution.stability->eigenvalues.size()); ++k)
       fmt::print(" {:.6g}", solution.stability->eigenvalues[k]);
     fmt::print("\n");

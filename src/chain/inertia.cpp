@@ -97,15 +97,17 @@ MatrixXd Chain::condensed_variation(Purpose purpose, const Numbering& numbering,
   return 0.5 * (dense + dense.transpose());
 }
 
+int Chain::negative_directions(const MatrixXd& dense, const Numbering& numbering) const {
+  int negative = neutral_turn_ ? negative_but_turn(dense, numbering.location) : negative_eigenvalues(dense);
+  for (const Link& link : links_) negative += link.arc->negative_pivots();
+  return negative - numbering.constraints;
+}
+
 int Chain::index(const VectorXd& x, const Loads& loads, Parity parity) const {
   if (parity == Parity::odd && !half()) return 0;
   const Purpose purpose = parity == Parity::odd ? Purpose::odd : Purpose::even;
   const Numbering numbering = number(purpose);
-  const MatrixXd dense = condensed_variation(purpose, numbering, x, loads);
-  int negative = 0;
-  for (const Link& link : links_) negative += link.arc->negative_pivots();
-  negative += neutral_turn_ ? negative_but_turn(dense, numbering.location) : negative_eigenvalues(dense);
-  return negative - numbering.constraints;
+  return negative_directions(condensed_variation(purpose, numbering, x, loads), numbering);
 }
 
 double Chain::sliding_stiffness(const VectorXd& x, const Loads& loads) const {

@@ -76,12 +76,14 @@ Stability analyse(RodProblem& given, const Vector& at_x, const Vector& p, int co
   const auto meshed = equilibrium::with_meshed_tails(given, at_x, p);
   RodProblem& problem = meshed ? *meshed->problem : given;
   const Vector& x = meshed ? meshed->x : at_x;
+  if (meshed) problem.total_index(x, p);  // factors
   const contact::Loads loads = problem.loads(p);
   std::vector<Mode> all;
   for (const Parity parity : {Parity::even, Parity::odd}) {
     if (parity == Parity::odd && !is_half(problem)) continue;
-    const Spectrum spectrum = solver.lowest(problem.chain().second_variation(x, loads, parity), count);
+    const Spectrum spectrum = solver.lowest(chain::Variation(problem.chain(), x, loads, parity), count);
     out.index += spectrum.index;
+    out.degenerate |= spectrum.rounded;
     for (Eigen::Index k = 0; k < spectrum.eigenvalues.size(); ++k) {
       Mode mode;
       if (modes)

@@ -54,7 +54,7 @@ EigenPairs dense_spectrum(const chain::Chain::SecondVariation& variation) {
   out.vectors.resize(k.rows(), finite.size());
   for (std::size_t i = 0; i < finite.size(); ++i) {
     out.values(i) = shift + 1.0 / theta(finite[i]);
-    out.vectors.col(i) = inverse_w * solver.eigenvectors().col(finite[i]);
+    out.vectors.col(i) = inverse_w * solver.eigenvectors().col(finite[i]) / theta(finite[i]);  // vᵀMv = 1
   }
   return out;
 }

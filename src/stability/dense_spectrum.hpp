@@ -14,7 +14,7 @@ struct EigenPairs {
   int inertia_index = 0;  ///< number of eigenvalues below the shift, by Sylvester's law
 };
 
-/// All finite eigenpairs of a small second variation; see SpectrumSolver.
+/// All finite eigenpairs of a second variation: with M = W Wᵀ of full column rank, Wᵀ K⁻¹ W y = y/μ and v = μ K⁻¹ W y.
 EigenPairs dense_spectrum(const chain::Chain::SecondVariation& variation);
 
 }  // namespace windlass::stability

@@ -68,6 +68,23 @@ BOOST_AUTO_TEST_CASE(infinite_length_equals_the_closed_form) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(infinite_tails_have_the_spectrum_of_long_ones) {
+  const auto stability = [](const char* length) {
+    const Outcome outcome =
+        run_program({"solve", coil(), "--set", "load.angle=3 pi", "--set", "load.tension=0.3", "--set",
+                     std::string("rod.length=") + length, "--json"});
+    BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    return nlohmann::json::parse(outcome.out)["stability"];
+  };
+  const auto infinite = stability("inf"), finite = stability("120");
+  BOOST_TEST(infinite["index"] == 0);
+  BOOST_TEST(infinite["inertia_index"] == 0);
+  // A mode that stays near the cylinder does not feel where the tails end: e^(−60 √(T − μ)) is below 1e-8.
+  const double lowest = infinite["eigenvalues"][0];
+  BOOST_TEST(lowest > 0.0);
+  BOOST_TEST(std::abs(lowest - finite["eigenvalues"][0].get<double>()) < 1e-6);
+}
+
 BOOST_AUTO_TEST_CASE(physical_scenes_have_units) {
   const std::string scene = shipped_scene("capstan-vps-pom");
   const Outcome outcome = run_program({"solve", scene, "--set", "model.kind=planar", "--json"});

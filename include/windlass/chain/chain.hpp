@@ -145,6 +145,7 @@ class Chain {
   Eigen::SparseMatrix<double> jacobian(const VectorXd& x, const Loads& loads) const;
 
  private:
+  friend class Variation;
   /// Does the chain start at a symmetry point, so that variations of the other parity are to be counted too?
   bool half() const { return gauges_.half_turn; }
   /// Which unknowns the dense block holds: those of equilibrium, or those of a variation at fixed contact edges.
@@ -184,9 +185,6 @@ class Chain {
                        int link, const bvp::EndsVector& gradient, MatrixXd& dense) const;
   void add_locations(const VectorXd& x, MatrixXd& dense) const;
   void add_gauges(const Numbering& numbering, Purpose purpose, const VectorXd& x, MatrixXd& dense) const;
-  /// The dense block of a variation, interiors condensed with the last factorisation; symmetric.
-  MatrixXd condensed_variation(Purpose purpose, const Numbering& numbering, const VectorXd& x,
-                               const Loads& loads) const;
   contact::Joint::Location location(const VectorXd& x, int joint) const;
   /// Condensed Hessian plus the part that is antisymmetric because frames do not commute.
   static bvp::EndsMatrix with_commutator(const Arc& arc, const bvp::EndsMatrix& symmetric,
@@ -199,6 +197,11 @@ class Chain {
   Eigen::SparseMatrix<double> sparse_hessian(Purpose purpose, const Placed& placed, int link) const;
   MatrixXd variation_matrix(Purpose purpose, const Numbering& numbering, const VectorXd& x,
                             const Loads& loads) const;
+  /// The second variation condensed to the dense block, from the arcs' last factorisation.
+  MatrixXd condensed_variation(Purpose purpose, const Numbering& numbering, const VectorXd& x,
+                               const Loads& loads) const;
+  /// Negative directions of that and of the arcs, less the constraints' and a neutral turn's.
+  int negative_directions(const MatrixXd& dense, const Numbering& numbering) const;
 
   /// Places in an increment that move a flat rod out of its plane.
   std::vector<Eigen::Index> out_of_plane() const;

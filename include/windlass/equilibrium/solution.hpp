@@ -76,7 +76,7 @@ struct Stability {
   std::vector<double> eigenvalues;  ///< lowest first
   /// Index and eigenvalues are those of the rod held against sliding along itself; this judges the slide: d²Π/dδ² [EI/ρ³].
   double sliding = 0.0;
-  bool degenerate = false;  ///< a contact carries zero force to within tolerance
+  bool degenerate = false;  ///< a contact carries no force, or an eigenvalue is zero to rounding
   std::vector<Mode> modes;
 };
 

@@ -47,6 +47,7 @@ void choose_tails(std::vector<chain::ArcMesh>& meshes, const Topology& topology,
                   const contact::Loads& loads, const std::vector<double>& s);
 
 /// The same state with every tail on a mesh: a spectrum weighs the tails' motion. nullopt where no tail is in closed form.
+/// Infinite tails become finite ones that are straight, to rounding, where they end.
 /// @throws NoEquilibrium
 std::optional<Started> with_meshed_tails(RodProblem& problem, const Vector& x, const Vector& p);
 
