@@ -3,8 +3,8 @@
 
 #include "neutral_turn.hpp"
 #include "windlass/chain/chain.hpp"
-#include "windlass/rod/quaternion.hpp"
 #include "windlass/chain/singular_matrix.hpp"
+#include "windlass/rod/quaternion.hpp"
 
 namespace windlass::chain {
 

@@ -6,9 +6,9 @@
 #include <tuple>
 #include <utility>
 
-#include "windlass/rod/quaternion.hpp"
 #include "windlass/chain/singular_matrix.hpp"
 #include "windlass/equilibrium/start.hpp"
+#include "windlass/rod/quaternion.hpp"
 #include "windlass/scene/keys.hpp"
 
 namespace windlass::equilibrium {

@@ -61,7 +61,8 @@ bool KrylovSpectrum::find(int wanted, std::vector<double>& found, std::vector<pe
   // The eigenvalues nearest to zero stand out after the inversion: a few vectors suffice (SLEPc's default of 16 are 16
   // solutions), and where they do not it restarts.
   constexpr int spare = 8;
-  const int left = static_cast<int>(points_) - static_cast<int>(found.size()) - (variation_->neutral().size() > 0);
+  const int left =
+      static_cast<int>(points_) - static_cast<int>(found.size()) - (variation_->neutral().size() > 0);
   if (left <= 0) return false;
   wanted = std::min(wanted, left);
   // Deflation stays with the solver that it is given to.
