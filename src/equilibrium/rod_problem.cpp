@@ -124,13 +124,15 @@ scene::Scene RodProblem::scene_at(const Vector& p) const {
 
 Vector RodProblem::residual(const Vector& x, const Vector& p) {
   factored_x_.resize(0);  // the index reads the arcs' gradients too, which now belong to x
-  return chain_->residual(x, loads(p));
+  const Loads at = loads(p);  // may rebuild the chain
+  return chain_->residual(x, at);
 }
 
 void RodProblem::factor(const Vector& x, const Vector& p, const Eigen::MatrixXd& b, const Eigen::MatrixXd& c,
                         const Eigen::MatrixXd& d) {
   factored_x_.resize(0);
-  chain_->factor(x, loads(p), b, c, d);
+  const Loads at = loads(p);  // may rebuild the chain
+  chain_->factor(x, at, b, c, d);
   factored_x_ = x;
   factored_p_ = p;
 }
@@ -188,6 +190,13 @@ int RodProblem::total_index(const Vector& x, const Vector& p) {
   return count(x, p, contact::Parity::even) + count(x, p, contact::Parity::odd);
 }
 
+Vector RodProblem::parameter_derivative(const Vector& x, const Vector& p, Eigen::Index k) {
+  if (fields_[k]) return continuation::Problem::parameter_derivative(x, p, k);
+  // Other values of this parameter build other arcs: the factorisation at hand must outlive them.
+  RodProblem beside(scene_at(p), spatial_, topology_, meshes_, keys_);
+  return beside.continuation::Problem::parameter_derivative(x, p, k);
+}
+
 double RodProblem::inner(const Vector& a, const Vector& b) const {
   // Contact places and arclengths by their sum, the shape by its mean: path length must not depend on the mesh.
   // Forces follow from the rest and would swamp it at high tension.
@@ -206,7 +215,8 @@ Vector RodProblem::dual(const Vector& a) const {
 }
 
 chain::Profile RodProblem::profile(const Vector& x, const Vector& p) {
-  return chain::profile(*chain_, topology_, rod_, x, loads(p));
+  const Loads at = loads(p);  // may rebuild the chain
+  return chain::profile(*chain_, topology_, rod_, x, at);
 }
 
 std::vector<double> RodProblem::joint_places(const Vector& x, const Vector& p, const chain::Profile& shape) {

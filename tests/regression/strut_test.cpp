@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "support/csv.hpp"
 #include "support/run_program.hpp"
 
 using namespace windlass::test;
@@ -51,6 +52,22 @@ BOOST_AUTO_TEST_CASE(michells_ring_buckles_in_two_modes_at_once) {
   const json specials = json::parse(slurp(folder.path() / "run" / "special_points.json"));
   BOOST_TEST_REQUIRE(specials.size() == 1u);
   BOOST_TEST(specials[0]["multiplicity"] == 2);  // cos 2θ and sin 2θ
+}
+
+BOOST_AUTO_TEST_CASE(a_parameter_that_makes_new_arcs_is_followed) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      run_program({"continue", shipped_scene("strut-clamped"), "--set", "ends.shortening=0.3", "--set",
+                   "continuation.parameter=rod.twist_ratio", "--set", "continuation.from=0.5", "--set",
+                   "continuation.to=1", "--out", "run"},
+                  folder.path());
+  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  // The strut stays in its plane and does not twist: its force knows nothing of the twisting stiffness.
+  const Table table = read_csv(folder.path() / "run" / "branches.csv");
+  BOOST_REQUIRE(table.rows.size() > 1u);
+  const double first = std::stod(table.rows.front().at("end_force"));
+  const double last = std::stod(table.rows.back().at("end_force"));
+  BOOST_TEST(std::abs(last - first) < 1e-8 * std::abs(first));  // the scene's tolerance
 }
 
 BOOST_AUTO_TEST_SUITE_END()
