@@ -64,6 +64,7 @@ bool StoppingRule::slow(double length) const {
 
 bool StoppingRule::last(double length, double residual, double state_size) {
   const double tolerance = options_.newton_tolerance;
+  const double allowed = options_.residual_tolerance * options_.residual_scale;
   // What rounding may leave where the state has large entries; taken only once corrections no longer shrink.
   const double rounding = tolerance * std::max(1.0, state_size);
   bool stagnant = false;
@@ -73,14 +74,14 @@ bool StoppingRule::last(double length, double residual, double state_size) {
     stagnant = contraction(length) > 0.2;
   }
   // Equations that are nearly singular turn a residual that is all rounding into corrections above the tolerance.
-  const bool exhausted = stagnant && residual <= 1e-4 * options_.residual_tolerance;
+  const bool exhausted = stagnant && residual <= 1e-4 * allowed;
   const bool small = length <= tolerance || (stagnant && length <= (exhausted ? 10.0 : 1.0) * rounding);
   // Where corrections are this small twice, what is left of F is the rounding of its large terms (those of an arc
   // about to vanish, say).
   const bool rounded = taken_ > 0 && previous_ <= tolerance && length <= 0.1 * tolerance;
   ++taken_;
   previous_ = length;
-  return small && (rounded || residual <= options_.residual_tolerance);
+  return small && (rounded || residual <= allowed);
 }
 
 namespace {
@@ -114,7 +115,8 @@ void iterate(BorderedSystem& system, const Options& options, CorrectorReport& re
       report.converged = true;
       return;
     }
-    if (++report.iterations > options.max_newton) {
+    if (length > options.newton_tolerance) ++report.iterations;
+    if (k >= options.max_newton) {
       std::ostringstream message;
       message << "no convergence in " << options.max_newton << " corrections (increment " << length
               << ", residual " << report.residual << ")";

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "continuation/bifurcation_rays.hpp"
+
 namespace continuation {
 
 bool same_fingerprint(const Vector& a, const Vector& b, double tolerance) {
@@ -15,7 +17,7 @@ bool same_fingerprint(const Vector& a, const Vector& b, double tolerance) {
 
 std::optional<Arm> start_arm(const Point& branch_point, const Tangent& direction, double epsilon,
                              const Options& options, ArmFailure& failure) {
-  const double scale = options.parameter_scale;
+  const Scales scale = options.scales();
   try {
     Arm arm;
     arm.problem = branch_point.problem->clone();
@@ -51,19 +53,26 @@ std::optional<Arm> start_arm(const Point& branch_point, const Tangent& direction
 Arms switch_branch(const Point& branch_point, const Options& options) {
   Arms arms;
   std::vector<Tangent> directions;
+  bool rays = false;  // both signs are among the directions
   try {
     Problem& problem = *branch_point.problem;
     if (branch_point.branch_point && branch_point.branch_point->tangents.size() == 2) {
       directions.push_back(branch_point.branch_point->tangents[1]);
     } else {
-      const Matrix kernel = branch_point.branch_point ? branch_point.branch_point->null.right
-                                                      : null_vectors(problem, branch_point.x, branch_point.p,
-                                                                     std::max(1, branch_point.multiplicity))
-                                                            .right;
-      for (Vector& d : problem.kernel_directions(branch_point.x, branch_point.p, kernel))
-        directions.push_back(Tangent{std::move(d), 0.0});
+      const Matrix kernel = branch_point.branch_point
+                                ? branch_point.branch_point->null.right
+                                : null_vectors(problem, branch_point.x, branch_point.p,
+                                               std::max(1, branch_point.multiplicity), options.state_scale)
+                                      .right;
+      std::vector<Vector> named = problem.kernel_directions(branch_point.x, branch_point.p, kernel);
+      if (named.empty() && kernel.cols() == 2)
+        directions = bifurcation_rays(problem, options, branch_point.x, branch_point.p);
+      if (directions.empty() && named.empty())
+        for (Eigen::Index i = 0; i < kernel.cols(); ++i) named.emplace_back(kernel.col(i));
+      rays = !directions.empty();
+      for (Vector& d : named) directions.push_back(Tangent{std::move(d), 0.0});
     }
-    for (Tangent& direction : directions) normalise(problem, direction, options.parameter_scale);
+    for (Tangent& direction : directions) normalise(problem, direction, options.scales());
   } catch (const std::domain_error& error) {
     arms.failures.emplace_back(error.what());
   } catch (const std::runtime_error& error) {
@@ -71,6 +80,7 @@ Arms switch_branch(const Point& branch_point, const Options& options) {
   }
   for (std::size_t i = 0; i < directions.size(); ++i) {
     for (const int sign : {1, -1}) {
+      if (rays && sign < 0) continue;
       const Tangent direction{sign * directions[i].x, sign * directions[i].p};
       std::optional<Arm> arm;
       ArmFailure failure;

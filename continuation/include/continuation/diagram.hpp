@@ -29,8 +29,8 @@ struct SpecialPoint {
   Point point;  ///< with a label counted over the diagram
   int branch = 0;
   Vector fingerprint;
-  std::vector<Tangent> arrivals;      ///< from a joining branch, pointing back along it
-  std::vector<Point> arrival_points;  ///< and the joining branch's own solution there
+  std::vector<Tangent> arrivals;      ///< of a joining branch, back along it; of the branch itself, both ways
+  std::vector<Point> arrival_points;  ///< and that branch's own solution there
 };
 
 struct Diagram {
@@ -39,6 +39,7 @@ struct Diagram {
   std::vector<std::string>
       lost;  ///< what failed: lost branches, arms that could not be started, limits reached
   std::vector<std::string> inadmissible;  ///< arms of branch points on which an event function is negative
+  std::vector<std::string> notes;         ///< what could not be looked for, and why
   bool stopped = false;                   ///< by should_stop
 };
 
@@ -55,8 +56,8 @@ struct DiagramState {
   Diagram diagram;  ///< so far; its last branch is in progress if there is a walker
   std::deque<PendingBranch> pending;
   std::optional<Walker> walker;
-  int first_special = 0;                         ///< of the branch in progress, place in Diagram::specials
-  int folds = 0, branch_points = 0, events = 0;  ///< labels given
+  int first_special = 0;  ///< of the branch in progress, place in Diagram::specials
+  int folds = 0, branch_points = 0, events = 0, hopf_points = 0;  ///< labels given
 };
 
 /// Receives the diagram while it grows. All do nothing by default.
@@ -76,7 +77,8 @@ class DiagramObserver {
 /// The first branch, then, breadth first, the arms of every branch point found.
 ///
 /// A branch that meets a special point of another branch (same kind, parameter and fingerprint) has joined
-/// it: it ends there, and the arm it came along is not walked again from the other side.
+/// it: it ends there, and the arm it came along is not walked again from the other side. A branch that goes
+/// through itself meets the same branch point again, and goes on; the arms it is itself are not walked.
 Diagram trace_diagram(std::shared_ptr<Problem> problem, const Vector& x, const Vector& p,
                       const Options& options, const DiagramOptions& diagram_options,
                       DiagramObserver& observer);

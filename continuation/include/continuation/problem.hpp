@@ -66,8 +66,12 @@ class Problem {
 
   /// Number of negative eigenvalues of the second variation at (x, p), an equilibrium; the last `factor` was
   /// made there. Problems that are not gradients return the number of negative real eigenvalues of J, or -1
-  /// if unknown.
+  /// if unknown: branch points are then seen by determinant_sign() alone.
   virtual int index(const Vector& x, const Vector& p) = 0;
+
+  /// Number of complex eigenvalues of J with negative real part (two a pair), asked for right after index().
+  /// With it a pair that turns real is told from branch points, and Hopf points are seen. The default is 0.
+  virtual int complex_index(const Vector& x, const Vector& p);
 
   /// ∂F/∂p_k; shape n. The default is a central difference with step cbrt(eps)·max(1, |p_k|).
   virtual Vector parameter_derivative(const Vector& x, const Vector& p, Eigen::Index k);
@@ -88,7 +92,8 @@ class Problem {
   virtual int determinant_sign();
 
   /// Directions in the kernel of J along which arms may leave a multiple branch point; each is tried with
-  /// both signs. kernel: n×k, unit columns in `inner`. The default is the columns themselves.
+  /// both signs. kernel: n×k, unit columns in the metric. Empty (the default): for k = 2 the library solves
+  /// the bifurcation equations for the arms; for larger k it tries the columns.
   virtual std::vector<Vector> kernel_directions(const Vector& x, const Vector& p, const Matrix& kernel);
 
   /// Signed functions, positive where this problem's description is valid (contact forces, gaps, lengths).

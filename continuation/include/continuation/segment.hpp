@@ -18,6 +18,7 @@ struct Sample {
   Tangent tangent;                    ///< unit, oriented like the base's; empty until completed
   bool complete = false;              ///< tangent, index and determinant are known
   int index = -1;                     ///< Problem::index; -1: unknown
+  int complex_index = 0;              ///< Problem::complex_index
   int determinant = 0;                ///< sign of det [J F_p; base tangent]; 0: unknown
   std::vector<EventFunction> events;  ///< empty unless asked for
   CorrectorReport report;
@@ -39,6 +40,9 @@ class Segment {
   /// segment.
   Sample* at(double s, bool complete);
 
+  /// The solution at s = 0 where the base itself does not solve F = 0; null if Newton's method fails.
+  const Sample* corrected();
+
   /// The solution with the varied parameter fixed to exactly `value`, which lies between those of the two
   /// samples.
   Sample* at_parameter(double value, const Sample& lo, const Sample& hi, bool complete);
@@ -52,11 +56,19 @@ class Segment {
   /// Adds the event values.
   void add_events(Sample& sample);
 
+  /// One more correction on a fresh factorisation: what Newton's tolerance left of the error is gone.
+  /// @return the parameter's share of that correction, which bounds the error left
+  double sharpen(Sample& sample);
+
+  /// The completed sample nearest to s on one side (±1), at least `beyond` away; null if there is none.
+  const Sample* complete_beside(double s, double beyond, int side) const;
+
   Sample& base() { return samples_.front(); }
+  const std::deque<Sample>& samples() const { return samples_; }
   const Tangent& tangent() const { return tangent_; }
   /// Path length along the base's tangent of an increment (u, dp).
   double path_length(const Vector& u, double dp) const {
-    return keller_.c.col(0).dot(u) + keller_.d(0, 0) * dp;
+    return keller_.c.col(0).dot(u) + keller_.d(0, 0) * dp;  // both divided by their units squared
   }
   double parameter(const Sample& sample) const { return sample.it.p[options_.parameter]; }
   const std::string& failure() const { return failure_; }

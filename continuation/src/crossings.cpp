@@ -1,0 +1,272 @@
+// What a change of the index between two points of a step means.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <stdexcept>
+
+#include "continuation/detect.hpp"
+
+namespace continuation {
+namespace {
+
+/// Net numbers of eigenvalues that crossed the imaginary axis between two samples.
+struct Count {
+  int real = 0;  ///< through zero; −1: unknown
+  int hopf = 0;  ///< complex pairs
+};
+
+/// Real zeros z, pairs through the imaginary axis h and pairs of negative real part that turned complex, c, obey
+/// Δreal = z − 2c, Δcomplex = 2h + 2c: the least eventful solution is taken.
+Count count_between(const Sample& lo, const Sample& hi) {
+  if (lo.index < 0 || hi.index < 0) {
+    if (lo.determinant == 0 || hi.determinant == 0) return {-1, 0};
+    // det J has the sign of det [J F_p; t] times that of dp/ds.
+    const double a = lo.determinant * lo.tangent.p, b = hi.determinant * hi.tangent.p;
+    return {(a < 0.0) != (b < 0.0) ? 1 : 0, 0};
+  }
+  const int real = hi.index - lo.index, pairs = (hi.complex_index - lo.complex_index) / 2;
+  Count best{real, pairs};
+  const auto events = [](const Count& count, int turned) {
+    return std::abs(count.real) + std::abs(count.hopf) + std::abs(turned);
+  };
+  int fewest = events(best, 0);
+  for (int turned = -std::abs(pairs) - 1; turned <= std::abs(pairs) + 1; ++turned) {
+    const Count count{real + 2 * turned, pairs - turned};
+    if (events(count, turned) >= fewest) continue;
+    fewest = events(count, turned);
+    best = count;
+  }
+  best.real = std::abs(best.real);
+  return best;
+}
+
+bool turns(const Sample& lo, const Sample& hi) { return lo.tangent.p * hi.tangent.p < 0.0; }
+
+class Search {
+ public:
+  Search(Segment& segment, double edge, bool may_refuse)
+      : segment_(segment),
+        options_(segment.options()),
+        tolerance_(options_.location_tolerance *
+                   std::max(1.0, std::abs(segment.parameter(segment.base())) / options_.parameter_scale)),
+        edge_(edge),
+        may_refuse_(may_refuse) {}
+
+  /// @param depth, shared  halvings since the interval held `shared` points
+  void branch_points(const Sample& lo, const Sample& hi, int depth = 0, int shared = 0) {
+    const int multiplicity = multiplicity_between(lo, hi);
+    if (multiplicity <= 0 || !found.refusal.empty()) return;
+    if (multiplicity != shared) depth = 0;
+    // The reduced equations cost about five factorisations, a halving two: they are tried early, then now and then.
+    std::string why;
+    if (depth == 0 || depth == 2 || depth % 4 == 0) {
+      if (std::optional<Located> point = polished(lo, hi, multiplicity, why)) {
+        found.points.push_back(std::move(*point));
+        return;
+      }
+      if (depth >= 4 && multiplicity % 2 == 0 && regular(lo, hi)) return;
+    }
+    // One branch point is found early or not at all; of several each must be shut in by itself first.
+    const int patience = multiplicity == 1 ? 4 : 16;
+    const bool refuse = may_refuse_ && hi.s < edge_;
+    const Sample* middle = refuse && depth >= patience ? nullptr : halfway(lo, hi, depth);
+    if (middle) {
+      const Sample kept = *middle;
+      branch_points(lo, kept, depth + 1, multiplicity);
+      branch_points(kept, hi, depth + 1, multiplicity);
+      return;  // nothing found: the count at one end was roundoff close to an eigenvalue's touch
+    }
+    if (why.empty()) why = segment_.failure();
+    if (refuse) {
+      found.refusal = "the index changes and no branch point is there: " + why;
+      return;
+    }
+    Located located = between(lo, hi, PointType::branch_point);
+    located.multiplicity = multiplicity;
+    located.note = "not polished: " + why;
+    found.points.push_back(std::move(located));
+  }
+
+  /// A complex pair that crosses the imaginary axis, by halving.
+  void hopf_points(Sample lo, Sample hi) {
+    if (count_between(lo, hi).hopf == 0) return;
+    for (int depth = 0; depth < 60 && hi.s - lo.s > tolerance_; ++depth) {
+      const Sample* middle = halfway(lo, hi, depth);
+      if (!middle) break;
+      const Sample kept = *middle;
+      if (count_between(lo, kept).hopf != 0) {
+        hi = kept;
+      } else if (count_between(kept, hi).hopf != 0) {
+        lo = kept;
+      } else {
+        return;
+      }
+    }
+    found.points.push_back(between(lo, hi, PointType::hopf));
+  }
+
+  /// Is the turn at s a fold, given what was found between the samples on its two sides?
+  bool fold(const Sample& lo, const Sample& hi, double s) {
+    const int change = count_between(lo, hi).real;
+    if (change < 0 || change % 2 == 1) return true;
+    for (const Located& point : found.points) {
+      if (point.type != PointType::branch_point || point.s < lo.s || point.s > hi.s) continue;
+      if (std::abs(point.s - s) < kClose * (segment_.options().step_max + hi.s - lo.s)) return false;
+      // Apart from each other the two enclose an interval where the index has the other parity.
+      const Sample* middle = segment_.at(0.5 * (point.s + s), true);
+      const Sample& near = point.s < s ? hi : lo;
+      return middle && count_between(*middle, near).real % 2 == 1;
+    }
+    return false;
+  }
+
+  Crossings found;
+  static constexpr double kClose = 1e-3;
+
+ private:
+  int multiplicity_between(const Sample& lo, const Sample& hi) const {
+    const int change = count_between(lo, hi).real;
+    if (change < 0) return 0;
+    if (is_vertical(segment_, lo, hi)) return std::max(change - 1, 0);  // its own direction is neutral
+    if (!turns(lo, hi)) return change;
+    // A fold changes the index by one; unchanged across a turn, the side branch of a pitchfork goes through it.
+    return change == 1 ? 0 : std::max(change, 1);
+  }
+
+  Located between(const Sample& lo, const Sample& hi, PointType type) const {
+    Located located;
+    located.type = type;
+    located.s = 0.5 * (lo.s + hi.s);
+    located.lo = lo.s;
+    located.hi = hi.s;
+    located.sample = lo;
+    located.precision = std::abs(segment_.parameter(hi) - segment_.parameter(lo));
+    located.index = lo.index;
+    located.index_after = hi.index;
+    return located;
+  }
+
+  const Sample* halfway(const Sample& lo, const Sample& hi, int depth) {
+    if (hi.s - lo.s <= tolerance_ || depth >= 60) return nullptr;
+    for (const double part : {0.5, 0.35, 0.65}) {  // right on the branch point the solve may fail
+      if (const Sample* middle = segment_.at(lo.s + part * (hi.s - lo.s), true)) return middle;
+    }
+    return nullptr;
+  }
+
+  // The smallest singular value of J changes by less than half of itself and keeps its sign.
+  bool regular(const Sample& lo, const Sample& hi) {
+    Problem& problem = *segment_.problem();
+    try {
+      const NullVectors null = null_vectors(problem, lo.it.x, lo.it.p, 1, options_.state_scale);
+      const double a = nearness(problem, lo.it.x, lo.it.p, null);
+      const double b = nearness(problem, hi.it.x, hi.it.p, null);
+      return std::abs(b - a) < 0.5 * std::abs(a);
+    } catch (const std::domain_error&) {
+    } catch (const std::runtime_error&) {  // singular even with one border
+    }
+    return false;
+  }
+
+  std::optional<Located> polished(const Sample& lo, const Sample& hi, int multiplicity, std::string& why) {
+    std::optional<BranchPoint> point = polish_branch_point(segment_, lo, hi, multiplicity, why);
+    if (!point) return std::nullopt;
+    const Eigen::Index parameter = options_.parameter;
+    const double scale = options_.parameter_scale;
+    const double ds = segment_.path_length(point->u, point->p[parameter] - lo.it.p[parameter]);
+    const double part = ds / (hi.s - lo.s);
+    constexpr double same = 1e-5;  // the state is free along the null vector, to within its curvature
+    const bool again = std::any_of(found.points.begin(), found.points.end(), [&](const Located& other) {
+      return other.branch_point &&
+             (other.branch_point->x - point->x).norm() <= same * (options_.state_scale + point->x.norm()) &&
+             std::abs(other.branch_point->p[parameter] - point->p[parameter]) <= 1e3 * scale * tolerance_;
+    });
+    // A little slack only: of two points close together each bracket must yield its own. Where p is monotonic it says
+    // better than the chord whether the point is inside.
+    const double slack = 0.01 + 1e-7 / (hi.s - lo.s);
+    const double p_lo = lo.it.p[parameter], p_hi = hi.it.p[parameter], p_here = point->p[parameter];
+    const double margin = 1e-4 * std::abs(p_hi - p_lo) + 1e-7 * scale;
+    const bool inside =
+        turns(lo, hi) || (p_here > std::min(p_lo, p_hi) - margin && p_here < std::max(p_lo, p_hi) + margin);
+    if (!(part > -slack && part < 1.0 + slack && inside) || again) {
+      why = "the branch point equations lead out of the bracket";
+      return std::nullopt;
+    }
+    Located located = between(lo, hi, PointType::branch_point);
+    located.s = lo.s + std::clamp(part, 0.0, 1.0) * (hi.s - lo.s);
+    located.precision = point->precision;
+    located.multiplicity = multiplicity;
+    located.sample.it.x = point->x;
+    located.sample.it.p = point->p;
+    if (!point->tangents.empty()) {
+      Tangent along = point->tangents[0];
+      if (inner(*segment_.problem(), along, lo.tangent, options_.scales()) < 0.0) {
+        along.x = -along.x;
+        along.p = -along.p;
+      }
+      located.sample.tangent = std::move(along);
+    }
+    located.branch_point = std::move(point);
+    return located;
+  }
+
+  Segment& segment_;
+  const Options& options_;
+  double tolerance_, edge_;
+  bool may_refuse_;
+};
+
+}  // namespace
+
+Crossings locate_crossings(Segment& segment, const Sample& lo, const Sample& hi, const Located* turn,
+                           double edge, bool may_refuse) {
+  Search search(segment, edge, may_refuse);
+  if (!turn) {
+    search.branch_points(lo, hi);
+    search.hopf_points(lo, hi);
+    return std::move(search.found);
+  }
+  // The samples that located the turn enclose it: no more are needed.
+  const double beyond = Search::kClose * (hi.s - lo.s);
+  const Sample* before = segment.complete_beside(turn->s, beyond, -1);
+  const Sample* after = segment.complete_beside(turn->s, beyond, 1);
+  const Sample a = before && before->s > lo.s ? *before : lo;
+  const Sample b = after && after->s < hi.s ? *after : hi;
+  search.branch_points(lo, a);
+  search.branch_points(a, b);
+  if (search.found.refusal.empty()) search.found.fold = search.fold(a, b, turn->s);
+  search.branch_points(b, hi);
+  search.hopf_points(lo, hi);
+  return std::move(search.found);
+}
+
+std::optional<Located> locate_function(Segment& segment, const UserFunction& function, const Sample& lo,
+                                       const Sample& hi) {
+  const double f_lo = function.value(lo.it.x, lo.it.p), f_hi = function.value(hi.it.x, hi.it.p);
+  if (!(f_lo != 0.0 && (f_hi == 0.0 || (f_lo < 0.0) != (f_hi < 0.0)))) return std::nullopt;
+  const Bracket bracket = find_zero(lo.s, f_lo, hi.s, f_hi, segment.options().location_tolerance,
+                                    [&](double s) -> std::optional<double> {
+                                      const Sample* sample = segment.at(s, false);
+                                      if (!sample) return std::nullopt;
+                                      return function.value(sample->it.x, sample->it.p);
+                                    });
+  const Sample* best = segment.at(bracket.best, true);
+  if (!best) return std::nullopt;
+  Located located;
+  located.type = PointType::function;
+  located.event = function.name;
+  located.s = bracket.best;
+  located.sample = *best;
+  located.lo = bracket.lo;
+  located.hi = bracket.hi;
+  const double rate = std::abs(best->tangent.p);
+  located.precision = rate * (bracket.hi - bracket.lo) +
+                      segment.options().parameter_scale * best->report.increment * best->report.contraction;
+  located.index = lo.index;
+  located.index_after = hi.index;
+  return located;
+}
+
+}  // namespace continuation
