@@ -127,16 +127,44 @@ std::vector<Stretch> stretches(const Topology& t) {
 
 bool Topology::contact() const { return mid_touch || right.size() > 1 || left.size() > 1; }
 
+void Topology::set_micro_gaps(std::vector<MicroGaps> gaps) {
+  const bool some = std::any_of(gaps.begin(), gaps.end(), [](const MicroGaps& g) { return g.any(); });
+  micro_gaps = some ? std::move(gaps) : std::vector<MicroGaps>{};
+}
+
+namespace {
+
+/// Words of a stretch read outward from the mid-point. The one that begins there is said without its part beyond.
+std::vector<std::string> words_of(Stretch stretch, const MicroGaps& gaps, bool from_mid) {
+  std::vector<std::string> words{word(stretch)};
+  if (gaps.begin && !from_mid) words.insert(words.begin(), {"touch", "gap"});
+  for (int k = 0; k < gaps.inside; ++k) words.insert(words.end(), {"gap", "line"});
+  if (gaps.end) words.insert(words.end(), {"gap", "touch"});
+  return words;
+}
+
+}  // namespace
+
 std::string Topology::text() const {
   const std::vector<Stretch>& other = half ? right : left;
+  const int marker = half ? 0 : static_cast<int>(left.size());
   std::vector<std::string> words;
   const auto add = [&](const std::vector<Stretch>& side, bool outward) {
     for (std::size_t k = 0; k < side.size(); ++k) {
       const std::size_t i = outward ? k : side.size() - 1 - k;
-      if (outward && i == 0 && !mid_touch) continue;  // the first stretch spans both halves
+      const bool on_left = !half && !outward, at_mid = i == 0 && !mid_touch;
+      const int link = on_left ? marker - 1 - static_cast<int>(i) : marker + static_cast<int>(i);
+      const MicroGaps gaps = on_left ? micro_gaps_of(link).reversed() : micro_gaps_of(link);
+      std::vector<std::string> own = words_of(side[i], gaps, at_mid);
+      if (outward && at_mid) {  // the first stretch spans both halves
+        words.insert(words.end(), own.begin() + 1, own.end());
+        continue;
+      }
       if (outward && i > 0 && side[i] != Stretch::line && side[i - 1] != Stretch::line)
         words.push_back("touch");
-      words.push_back(word(side[i]));
+      if (!outward) std::reverse(own.begin(), own.end());
+      words.insert(words.end(), own.begin(), own.end());
+      if (!outward && at_mid && gaps.begin) words.insert(words.end(), {"gap", "line"});
       if (!outward && i > 0 && side[i] != Stretch::line && side[i - 1] != Stretch::line)
         words.push_back("touch");
     }

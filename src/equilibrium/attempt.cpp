@@ -19,12 +19,13 @@ namespace {
 /// Is the state a solution of the unilateral problem: forces and gaps nonnegative? A force of zero (an event) passes.
 /// A free loop that only grazes the cylinder carries no force at all and is no equilibrium in contact.
 bool contacts_hold(RodProblem& problem, const Vector& x, const Vector& p) {
-  for (const ContactEvent& event : contact_events(problem.profile(x, p), problem.topology())) {
+  for (const ContactEvent& event :
+       contact_events(problem.profile(x, p), problem.topology(), scales_of(problem.rod()))) {
     const double short_of = event.kind == ContactEvent::Kind::length ? least_length : 0.0;
     if (event.value < -1e-9 - short_of) return false;
   }
   constexpr double least_force = 1e-12;  // of R_tot, dimensionless
-  return problem.target(problem.chain(), x, problem.loads(p)) > least_force;
+  return problem.target(problem.chain(), x, problem.loads(p)) > least_force * scales_of(problem.rod()).force;
 }
 
 }  // namespace

@@ -1,10 +1,9 @@
 #include "windlass/equilibrium/contact_events.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/minima.hpp>
 #include <cmath>
 
-#include "windlass/bvp/collocation_table.hpp"
+#include "windlass/equilibrium/micro_gap.hpp"
 
 namespace windlass::equilibrium {
 
@@ -17,33 +16,55 @@ using Kind = ContactEvent::Kind;
 
 namespace {
 
+/// Heights inside a line go like the third power of the load: their root is linear in it.
+double room_to_grow(const MicroGap& gap) {
+  return std::min(1.0 - std::cbrt(gap.height / micro_height), gap.room);
+}
+
+}  // namespace
+
+LineContact line_contact_of(const Piece& piece, const Topology& topology, int link, const Scales& scales) {
+  const int marker = topology.half ? 0 : static_cast<int>(topology.left.size());
+  return line_contact(piece, topology.micro_gaps_of(link), link == marker, link == marker - 1, scales);
+}
+
+const MicroGap& shallowest(const LineContact& line) {
+  return *std::max_element(line.gaps.begin(), line.gaps.end(),
+                           [](const MicroGap& a, const MicroGap& b) { return a.p < b.p; });
+}
+
+const MicroGap& tallest(const LineContact& line) {
+  return *std::min_element(line.gaps.begin(), line.gaps.end(), [](const MicroGap& a, const MicroGap& b) {
+    return room_to_grow(a) < room_to_grow(b);
+  });
+}
+
+std::optional<double> height_between_lines(const Profile& profile, const Topology& topology, int link,
+                                           const Scales& scales) {
+  const auto is_line = [&](int i) {
+    return i >= 0 && i < static_cast<int>(profile.pieces.size()) &&
+           profile.pieces[i].stretch == Stretch::line;
+  };
+  const Piece& gap = profile.pieces[link];
+  const int marker = topology.half ? 0 : static_cast<int>(topology.left.size());
+  if (gap.stretch != Stretch::gap) return std::nullopt;
+  const bool mid = link == marker, astride = !topology.half && (mid || link == marker - 1);
+  if (astride || (mid && topology.mid_touch)) return std::nullopt;
+  const bool before = is_line(link - 1), after = is_line(link + 1);
+  if (!before && !after) return std::nullopt;
+  const int edge = before ? link : link + 1;
+  const auto contact = std::find_if(profile.contacts.begin(), profile.contacts.end(),
+                                    [&](const Contact& c) { return c.joint == edge; });
+  if (contact == profile.contacts.end()) return std::nullopt;
+  const double length = gap.s(gap.s.size() - 1) - gap.s(0);
+  const bool between = before && after;
+  return height_of_gap(contact->force, between ? 0.5 * length : length, !between && !mid, scales);
+}
+
+namespace {
+
 /// Value of an event that is nowhere near: no local minimum of the gap, say.
 constexpr double far = 1.0;
-
-struct Least {
-  double value, s;
-};
-
-/// Least value of a sampled quantity between the neighbours of sample k, on the polynomials of the elements there: an
-/// event located by samples would move with the mesh.
-Least least_near(const Piece& piece, const Eigen::VectorXd& values, Eigen::Index k) {
-  constexpr int bits = 26;  // half of a double: a minimum is flat
-  Least least{values(k), piece.s(k)};
-  for (const Eigen::Index from : {k - 1, k}) {
-    if (from < 0 || from + 1 >= values.size()) continue;
-    const Eigen::Index first = from / piece.stride * piece.stride;
-    const Eigen::VectorXd nodes = piece.s.segment(first, piece.stride + 1);
-    const double begin = nodes(0), length = nodes(piece.stride) - begin;
-    const Eigen::VectorXd scaled = (nodes.array() - begin) / length;
-    const auto polynomial = [&](double x) {
-      return bvp::lagrange_basis(scaled, x).dot(values.segment(first, piece.stride + 1));
-    };
-    const auto [x, value] = boost::math::tools::brent_find_minima(polynomial, scaled(from - first),
-                                                                  scaled(from + 1 - first), bits);
-    if (value < least.value) least = {value, begin + length * x};
-  }
-  return least;
-}
 
 /// Least local minimum of the gap inside a free arc. Next to a contact the gap is flat and its samples are rounding; a
 /// minimum must stand out by more than that.
@@ -62,11 +83,16 @@ ContactEvent graze(const Piece& piece, int link, bool starts_at_mid) {
   return event;
 }
 
-ContactEvent least_pressure(const Piece& piece, int link) {
-  Eigen::Index k = 0;
-  piece.p.minCoeff(&k);
-  const Least least = least_near(piece, piece.p, k);
-  return {Kind::pressure, link, least.value, least.s};
+/// Events of a line contact: it opens somewhere, a gap in it closes, a gap in it needs an arc of its own.
+void add_line_events(const Piece& piece, const Topology& topology, int i, const Scales& scales,
+                     std::vector<ContactEvent>& events) {
+  const LineContact line = line_contact_of(piece, topology, i, scales);
+  events.push_back({Kind::pressure, i, line.least_pressure / scales.pressure, line.s});
+  if (line.gaps.empty()) return;
+  const MicroGap& closing = shallowest(line);
+  events.push_back({Kind::closure, i, -closing.p / scales.pressure, closing.s});
+  const MicroGap& growing = tallest(line);
+  events.push_back({Kind::arc, i, room_to_grow(growing), growing.s});
 }
 
 double length_of(const Piece& piece) { return piece.s(piece.s.size() - 1) - piece.s(0); }
@@ -82,11 +108,13 @@ bool hardly_apart(const Profile& profile, int link) {
   return touches == 2;
 }
 
-ContactEvent length_event(const Profile& profile, const Topology& topology, int i) {
+ContactEvent length_event(const Profile& profile, const Topology& topology, int i, const Scales& scales) {
   const int mid = static_cast<int>(topology.left.size());
   const double length = length_of(profile.pieces[i]);
   ContactEvent event{Kind::length, i, length - least_length, profile.pieces[i].s(0)};
   event.imminent = hardly_apart(profile, i);
+  if (const auto height = height_between_lines(profile, topology, i, scales))
+    event.value = std::min(1.0, std::cbrt(*height / arc_height) - 1.0);
   const bool at_mid = !topology.half && !topology.mid_touch && (i == mid || i == mid - 1);
   if (at_mid && one_side_ends(length, length_of(profile.pieces[2 * mid - 1 - i])))
     event.value = length + past_mid;
@@ -101,22 +129,23 @@ bool one_side_ends(double length, double other_length) {
 }
 
 std::string ContactEvent::name() const {
-  static const char* const words[] = {"pressure", "length", "force", "curvature", "graze"};
+  static const char* const words[] = {"pressure", "length", "force", "curvature", "graze", "closure", "arc"};
   return std::string(words[static_cast<int>(kind)]) + " " + std::to_string(place);
 }
 
-std::vector<ContactEvent> contact_events(const Profile& profile, const Topology& topology) {
+std::vector<ContactEvent> contact_events(const Profile& profile, const Topology& topology,
+                                         const Scales& scales) {
   std::vector<ContactEvent> events;
   const int count = static_cast<int>(profile.pieces.size());
   for (int i = 0; i < count; ++i) {
     const Piece& piece = profile.pieces[i];
     const bool at_mid = i == static_cast<int>(topology.left.size());
-    if (piece.stretch == Stretch::line) events.push_back(least_pressure(piece, i));
-    if (piece.stretch != Stretch::tail) events.push_back(length_event(profile, topology, i));
+    if (piece.stretch == Stretch::line) add_line_events(piece, topology, i, scales, events);
+    if (piece.stretch != Stretch::tail) events.push_back(length_event(profile, topology, i, scales));
     if (piece.stretch != Stretch::line) events.push_back(graze(piece, i, at_mid && !topology.mid_touch));
   }
   for (const Contact& c : profile.contacts) {
-    events.push_back({Kind::force, c.joint, c.force, c.s});
+    events.push_back({Kind::force, c.joint, c.force / scales.force, c.s});
     if (!c.edge) events.push_back({Kind::curvature, c.joint, c.gap_curvature, c.s});
   }
   return events;

@@ -233,6 +233,8 @@ std::string chain_of(const RodProblem& problem) {
   chain["mid_touch"] = problem.topology().mid_touch;
   chain["right"] = words(problem.topology().right);
   chain["left"] = words(problem.topology().left);
+  for (const chain::MicroGaps& gaps : problem.topology().micro_gaps)
+    chain["micro_gaps"].push_back({gaps.begin, gaps.end, gaps.inside});
   for (const auto& mesh : problem.meshes())
     chain["meshes"].push_back({{"nodes", mesh.nodes}, {"stages", mesh.stages}});
   return chain.dump();
@@ -248,6 +250,9 @@ std::shared_ptr<RodProblem> rebuild(const scene::Scene& scene, const std::string
   topology.mid_touch = chain.at("mid_touch");
   for (int k : chain.at("right")) topology.right.push_back(static_cast<Stretch>(k));
   for (int k : chain.at("left")) topology.left.push_back(static_cast<Stretch>(k));
+  if (chain.contains("micro_gaps"))
+    for (const auto& gaps : chain.at("micro_gaps"))
+      topology.micro_gaps.push_back({gaps.at(0).get<bool>(), gaps.at(1).get<bool>(), gaps.at(2).get<int>()});
   std::vector<chain::ArcMesh> meshes;
   for (const auto& mesh : chain.at("meshes"))
     meshes.push_back({mesh.at("nodes").get<std::vector<double>>(), mesh.at("stages").get<int>()});

@@ -149,6 +149,13 @@ int RodProblem::total_index(const Vector& x, const Vector& p) {
   return chain_->index(x, at, contact::Parity::even) + chain_->index(x, at, contact::Parity::odd);
 }
 
+Vector RodProblem::parameter_derivative(const Vector& x, const Vector& p, Eigen::Index k) {
+  if (fields_[k]) return continuation::Problem::parameter_derivative(x, p, k);
+  // Other values of this parameter build other arcs: the factorisation at hand must outlive them.
+  RodProblem beside(scene_at(p), spatial_, topology_, meshes_, keys_);
+  return beside.continuation::Problem::parameter_derivative(x, p, k);
+}
+
 double RodProblem::inner(const Vector& a, const Vector& b) const {
   // Contact places and arclengths by their sum, the shape by its mean: path length must not depend on the mesh.
   // Forces follow from the rest and would swamp it at high tension.

@@ -48,9 +48,12 @@ Entry draft(const RodProblem& from, const Successor& next, const chain::Profile&
   return {problem, guess, p};
 }
 
-bool holds(Entry& entry) {
-  return admissible(contact_events(entry.problem->profile(entry.x, entry.p), entry.problem->topology()));
+std::vector<ContactEvent> events_of(Entry& entry) {
+  return contact_events(entry.problem->profile(entry.x, entry.p), entry.problem->topology(),
+                        scales_of(entry.problem->rod()));
 }
+
+bool holds(Entry& entry) { return admissible(events_of(entry)); }
 
 /// From a state whose arc about s has nearly vanished to the one where it does, the event itself. In the topology without
 /// the arc that is a zero of the curvature of the touch at s, or of the pressure there.
@@ -60,7 +63,7 @@ std::optional<double> locate_from_beyond(Entry& entry, double s) {
     if (at.problem->polish(at.x, at.p, 18) < 0) return std::nullopt;
     const chain::Profile shape = at.problem->profile(at.x, at.p);
     std::optional<double> pressure;
-    for (const ContactEvent& event : contact_events(shape, at.problem->topology())) {
+    for (const ContactEvent& event : events_of(at)) {
       if (event.kind == Kind::curvature && std::abs(event.s - s) < 10.0 * least_length) return event.value;
       if (event.kind != Kind::pressure) continue;
       const Eigen::VectorXd& places = shape.pieces[event.place].s;
@@ -131,7 +134,8 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, i
     return std::nullopt;
   const chain::Profile shape = entry.problem->profile(entry.x, entry.p);
   const Topology& topology = entry.problem->topology();
-  const std::vector<ContactEvent> events = contact_events(shape, topology);
+  const Scales scales = scales_of(entry.problem->rod());
+  const std::vector<ContactEvent> events = contact_events(shape, topology, scales);
   if (admissible(events)) {
     lengthen(entry, opened.front());
     return entry;
@@ -140,7 +144,7 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, i
                                       [](const auto& a, const auto& b) { return a.value < b.value; });
   if (depth == 0 || worst->kind != Kind::pressure) return std::nullopt;
   const std::vector<double> s = entry.problem->joint_places(entry.x, entry.p, shape);
-  for (const Successor& next : successors(*worst, shape, topology, s)) {
+  for (const Successor& next : successors(*worst, shape, topology, s, scales)) {
     if (next.opened.empty()) continue;
     std::vector<int> all;
     for (const int link : opened)
@@ -152,10 +156,30 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, i
   return std::nullopt;
 }
 
+/// The same state with an arc for one of its gaps, or without: at the same load, to within what the arc's height changes.
+std::optional<Entry> exchange(Entry entry, const std::vector<int>& opened) {
+  const Vector p = entry.p;
+  try {
+    if (!opened.empty()) {
+      const double length = length_of(entry, opened.front());
+      settle_shape(*entry.problem, entry.x, entry.p, opened);
+      if (!solve_at_length(*entry.problem, entry.x, entry.p, opened.front(), length)) return std::nullopt;
+    }
+    Entry here = entry;
+    here.p = p;
+    if (here.problem->polish(here.x, here.p) >= 0 && holds(here)) return here;
+    if (!opened.empty() && holds(entry)) return entry;
+  } catch (const std::runtime_error&) {  // singular
+  } catch (const std::domain_error&) {   // a length or tension left its domain
+  }
+  return std::nullopt;
+}
+
 /// Solves for the successor of an event. @param precision  set where the state found is the event itself
 std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const Successor& next,
                            double& precision) {
   constexpr int most_together = 5;
+  if (next.same_contacts) return exchange(guess, next.opened);
   try {
     Entry exact = guess;
     const bool vanishes =
@@ -182,7 +206,7 @@ std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const 
 std::vector<continuation::EventFunction> RodProblem::events(const Vector& x, const Vector& p) {
   std::vector<continuation::EventFunction> out;
   if (!scene_.has_cylinder) return out;
-  for (const ContactEvent& event : contact_events(profile(x, p), topology_))
+  for (const ContactEvent& event : contact_events(profile(x, p), topology_, scales_of(rod_)))
     out.push_back({event.name(), event.value, event.imminent});
   return out;
 }
@@ -190,15 +214,24 @@ std::vector<continuation::EventFunction> RodProblem::events(const Vector& x, con
 std::optional<continuation::Transition> RodProblem::transition(std::size_t which, const Vector& x,
                                                                const Vector& p) {
   const chain::Profile shape = profile(x, p);
-  const ContactEvent event = contact_events(shape, topology_).at(which);
+  const Scales scales = scales_of(rod_);
+  const ContactEvent event = contact_events(shape, topology_, scales).at(which);
   std::optional<continuation::Transition> first;
-  for (const Successor& next : successors(event, shape, topology_, joint_places(x, p, shape))) {
+  for (const Successor& next : successors(event, shape, topology_, joint_places(x, p, shape), scales)) {
     continuation::Transition transition;
     transition.before = topology_.text();
     transition.after = next.topology.text();
     if (next.nothing_left) {
       transition.after = "no contact";
       return transition;  // null problem: the branch ends here
+    }
+    if (next.same_chain) {
+      auto same = std::make_shared<RodProblem>(scene_at(p), spatial_, next.topology, meshes_, keys_);
+      Entry entry{same, x, p};
+      if (!holds(entry)) continue;
+      transition.problem = same;
+      transition.state = x;
+      return transition;
     }
     const Entry entry = draft(*this, next, shape, p);
     transition.state = entry.x;
@@ -210,7 +243,7 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
     transition.after = found->problem->topology().text();
     transition.state = found->x;
     if (found->p != p || transition.precision >= 0.0) transition.p = found->p;
-    transition.silent = next.passes_mid;
+    transition.silent = next.passes_mid || next.same_contacts;
     return transition;
   }
   return first;

@@ -12,17 +12,21 @@ Strip::Strip(const chain::Topology& topology, const std::vector<double>& places)
       half(topology.half),
       mid_touch(topology.mid_touch),
       marker(static_cast<int>(topology.left.size())) {
-  for (const Stretch kind : chain::stretches(topology))
-    parts.push_back({kind, static_cast<int>(parts.size())});
+  for (const Stretch kind : chain::stretches(topology)) {
+    const int link = static_cast<int>(parts.size());
+    parts.push_back({kind, link, false, topology.micro_gaps_of(link)});
+  }
 }
 
 Successor Strip::successor() const {
   Successor out;
   out.s = s;
   std::vector<Stretch> kinds;
+  std::vector<chain::MicroGaps> gaps;
   for (const Part& part : parts) {
     if (part.fresh) out.opened.push_back(static_cast<int>(kinds.size()));
     kinds.push_back(part.kind);
+    gaps.push_back(part.kind == Stretch::line ? part.gaps : chain::MicroGaps{});
     out.source.push_back(part.source);
   }
   out.passes_mid = passes_mid;
@@ -30,6 +34,7 @@ Successor Strip::successor() const {
   out.topology.mid_touch = mid_touch;
   out.topology.right.assign(kinds.begin() + marker, kinds.end());
   out.topology.left.assign(kinds.rend() - marker, kinds.rend());
+  out.topology.set_micro_gaps(std::move(gaps));
   out.nothing_left = !out.topology.contact();
   return out;
 }
@@ -45,14 +50,18 @@ void Strip::erase(int i, int bound) {
 }
 
 void Strip::merge(int first, int last, Stretch kind) {
+  chain::MicroGaps gaps{parts[first].gaps.begin, parts[last].gaps.end, 0};
+  for (int i = first; i <= last; ++i) gaps.inside += parts[i].gaps.inside;
   for (int i = last; i > first; --i) erase(i, i);
   parts[first].kind = kind;
+  parts[first].gaps = gaps;
 }
 
 void Strip::split(int i, double at, Stretch left, Stretch right) {
   const Part old = parts[i];
   parts[i].kind = left;
-  parts.insert(parts.begin() + i + 1, {right, old.source});
+  parts[i].gaps.end = false;
+  parts.insert(parts.begin() + i + 1, {right, old.source, false, {false, old.gaps.end, 0}});
   s.insert(s.begin() + i + 1, at);
   if (!half && marker > i) ++marker;
 }

@@ -13,6 +13,7 @@ struct Strip {
     chain::Stretch kind;
     int source;          ///< link of the old chain
     bool fresh = false;  ///< has no length at the event itself
+    chain::MicroGaps gaps = {};
   };
   std::vector<Part> parts;
   std::vector<double> s;  ///< bounds of the parts
@@ -32,7 +33,8 @@ struct Strip {
   void erase(int i, int bound);
   /// Replaces parts [first, last] by one.
   void merge(int first, int last, chain::Stretch kind);
-  /// Splits part i at s into (i, left) and (i + 1, right).
+  /// Splits part i at s into (i, left) and (i + 1, right). Its gaps without arcs at its ends stay there; those inside are
+  /// the caller's to share out.
   void split(int i, double at, chain::Stretch left, chain::Stretch right);
   /// Takes out part i, which has no length left, about the mid-point both halves of it: what met at its two ends meets
   /// now. @returns false for an end of the rod

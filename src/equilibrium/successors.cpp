@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "strip.hpp"
@@ -45,7 +46,97 @@ std::vector<double> gap_lengths(double width, double factor, double usual, doubl
   return out;
 }
 
-std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& strip, const Piece& line) {
+/// The same line with one gap more: no length and no arc yet.
+Successor opened(const ContactEvent& event, Strip strip) {
+  const int i = event.place;
+  constexpr double at_edge = 1e-6,
+                   at_mid = 1e-3;  // places of least values are known to half of a double's digits
+  const bool begins = event.s - strip.s[i] < (strip.starts_at_mid(i) ? at_mid : at_edge);
+  const bool ends = strip.s[i + 1] - event.s < (strip.ends_at_mid(i) ? at_mid : at_edge);
+  chain::MicroGaps& gaps = strip.parts[i].gaps;
+  gaps.begin |= begins;
+  gaps.end |= ends;
+  gaps.inside += !begins && !ends;
+  if (!strip.half && begins && strip.starts_at_mid(i)) strip.parts[i - 1].gaps.end = true;
+  if (!strip.half && ends && strip.ends_at_mid(i)) strip.parts[i + 1].gaps.begin = true;
+  Successor out = strip.successor();
+  out.same_chain = true;
+  return out;
+}
+
+/// The line without the gap that has closed.
+Successor closed(const ContactEvent& event, Strip strip, const Profile& profile, const Topology& topology,
+                 const Scales& scales) {
+  const int i = event.place;
+  chain::MicroGaps& gaps = strip.parts[i].gaps;
+  switch (shallowest(line_contact_of(profile.pieces[i], topology, i, scales)).where) {
+    case MicroGap::Where::inside:
+      --gaps.inside;
+      break;
+    case MicroGap::Where::begin:
+      gaps.begin = false;
+      if (!strip.half && strip.starts_at_mid(i)) strip.parts[i - 1].gaps.end = false;
+      break;
+    case MicroGap::Where::end:
+      gaps.end = false;
+      if (!strip.half && strip.ends_at_mid(i)) strip.parts[i + 1].gaps.begin = false;
+      break;
+  }
+  Successor out = strip.successor();
+  out.same_chain = true;
+  return out;
+}
+
+/// An arc for the gap that needs one.
+std::vector<Successor> with_arc(const ContactEvent& event, Strip strip, const Profile& profile,
+                                const Topology& topology, const Scales& scales) {
+  int i = event.place;
+  const LineContact line = line_contact_of(profile.pieces[i], topology, i, scales);
+  const MicroGap gap = tallest(line);
+  chain::MicroGaps& all = strip.parts[i].gaps;
+  int before = 0;
+  for (const MicroGap& other : line.gaps) before += other.where == MicroGap::Where::inside && other.s < gap.s;
+  const int after = all.inside - before - (gap.where == MicroGap::Where::inside);
+  if (gap.where == MicroGap::Where::begin) all.begin = false;
+  if (gap.where == MicroGap::Where::end) all.end = false;
+  all.inside = before;
+  const bool twin = !strip.half && ((gap.where == MicroGap::Where::begin && strip.starts_at_mid(i)) ||
+                                    (gap.where == MicroGap::Where::end && strip.ends_at_mid(i)));
+  if (twin) return {};
+  if (gap.to < strip.s[i + 1]) {
+    strip.split(i, gap.to, Stretch::line, Stretch::line);
+    strip.parts[i + 1].gaps.inside = after;
+  }
+  const bool has_line_before = gap.from > strip.s[i];
+  if (has_line_before) strip.split(i++, gap.from, Stretch::line, Stretch::line);
+  if (!has_line_before) strip.parts[i].gaps = {};
+  strip.parts[i].kind = Stretch::gap;
+  strip.parts[i].fresh = true;
+  Successor out = strip.successor();
+  out.same_contacts = true;
+  return {out};
+}
+
+/// A gap in a line contact gives up its arc.
+std::optional<Successor> without_arc(int i, Strip strip) {
+  const int last = static_cast<int>(strip.parts.size()) - 1;
+  const bool before = i > 0 && strip.parts[i - 1].kind == Stretch::line;
+  const bool after = i < last && strip.parts[i + 1].kind == Stretch::line;
+  const bool mid = strip.half && strip.starts_at_mid(i);
+  strip.merge(before ? i - 1 : i, after ? i + 1 : i, Stretch::line);
+  chain::MicroGaps& gaps = strip.parts[before ? i - 1 : i].gaps;
+  if (before && after) ++gaps.inside;
+  if (before && !after) gaps.end = true;
+  if (!before) gaps.begin = true;
+  if (mid && strip.mid_touch) return std::nullopt;
+  Successor out = strip.successor();
+  out.same_contacts = true;
+  return out;
+}
+
+std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& strip, const Piece& line,
+                                      const Scales& scales) {
+  constexpr double uniform = 1e-6;  // a flat line's pressure, to what its mesh leaves of it
   std::vector<Successor> out;
   const int i = event.place;
   const double begin = strip.s[i], end = strip.s[i + 1], length = end - begin;
@@ -53,7 +144,8 @@ std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& st
   const int twin = strip.half ? i : starts_at_mid ? i - 1 : ends_at_mid ? i + 1 : i;
   Strip open = strip;  // the whole line lifts at once, on both sides of a full chain's mid-point
   open.parts[i].kind = open.parts[twin].kind = Stretch::gap;
-  if (line.p.maxCoeff() - line.p.minCoeff() < 1e-6) return {open.successor()};
+  if (line.p.maxCoeff() - line.p.minCoeff() < uniform * scales.pressure) return {open.successor()};
+  out.push_back(opened(event, strip));
   const auto [low, high] = suction(line, event.s);
   const double width = high - low, near = 0.02 * length;
   const bool at_start = low<begin + near, at_end = high> end - near;
@@ -109,7 +201,7 @@ std::vector<Successor> after_length(int link, const Strip& strip) {
 }
 
 std::vector<Successor> after_force(const ContactEvent& event, Strip strip, const Profile& profile,
-                                   const Topology& topology) {
+                                   const Topology& topology, const Scales& scales) {
   const int j = event.place;
   if (strip.mid_touch && j == strip.marker) {
     strip.mid_touch = false;
@@ -121,7 +213,7 @@ std::vector<Successor> after_force(const ContactEvent& event, Strip strip, const
       1e-6;  // with the last force the rod leaves the cylinder, from mirror images at once
   strip.merge(j - 1, j, joined(before, after));
   Successor next = strip.successor();
-  next.nothing_left |= chain::total_contact_force(profile, topology) < lifted;
+  next.nothing_left |= chain::total_contact_force(profile, topology) < lifted * scales.force;
   return {next};
 }
 
@@ -188,19 +280,28 @@ std::vector<Successor> after_graze(const ContactEvent& event, Strip strip) {
 
 /// Candidates for what follows the event, the other half of a full chain left as it is.
 std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profile, const Topology& topology,
-                                 const std::vector<double>& s) {
+                                 const std::vector<double>& s, const Scales& scales) {
   const Strip strip(topology, s);
   switch (event.kind) {
     case Kind::pressure:
       // With a line that shrinks to nothing its pressure (phi = pi) or its edges' forces may change sign.
       if (vanishes(strip, event.place)) return after_length(event.place, strip);
-      return after_pressure(event, strip, profile.pieces[event.place]);
-    case Kind::length:
-      return after_length(event.place, strip);
+      return after_pressure(event, strip, profile.pieces[event.place], scales);
+    case Kind::closure:
+      return {closed(event, strip, profile, topology, scales)};
+    case Kind::arc:
+      return with_arc(event, strip, profile, topology, scales);
+    case Kind::length: {
+      std::vector<Successor> out;
+      if (height_between_lines(profile, topology, event.place, scales))
+        if (const auto next = without_arc(event.place, strip)) out.push_back(*next);
+      for (Successor& next : after_length(event.place, strip)) out.push_back(std::move(next));
+      return out;
+    }
     case Kind::force:
       for (const int link : {event.place - 1, event.place})
         if (vanishes(strip, link)) return after_length(link, strip);
-      return after_force(event, strip, profile, topology);
+      return after_force(event, strip, profile, topology, scales);
     case Kind::curvature:
       return after_curvature(event, strip, profile);
     case Kind::graze:
@@ -232,13 +333,35 @@ Successor both_sided(const Successor& next, bool right_changed, int links) {
     out.opened.push_back(half + k);
     out.opened.push_back(half - 1 - k);
   }
+  std::vector<chain::MicroGaps> gaps(2 * half);
+  for (int k = 0; k < half; ++k) {
+    const chain::MicroGaps own = next.topology.micro_gaps_of(kept(k));
+    gaps[half + k] = right_changed ? own : own.reversed();
+    gaps[half - 1 - k] = gaps[half + k].reversed();
+  }
+  out.topology.set_micro_gaps(std::move(gaps));
   out.nothing_left = !out.topology.contact();
   return out;
+}
+
+/// Do the gaps without arcs differ on one side of the mid-point, link by link from there?
+bool gaps_differ(const Topology& a, const Topology& b, bool right) {
+  const auto gaps = [&](const Topology& t) {
+    const int marker = t.half ? 0 : static_cast<int>(t.left.size());
+    std::vector<chain::MicroGaps> out;
+    for (int k = 0; k < static_cast<int>(right ? t.right.size() : t.left.size()); ++k)
+      out.push_back(t.micro_gaps_of(right ? marker + k : marker - 1 - k));
+    return out;
+  };
+  return gaps(a) != gaps(b);
 }
 
 bool symmetric(const Topology& topology, const std::vector<double>& s) {
   constexpr double same = 1e-6;
   if (topology.half || topology.left != topology.right) return false;
+  const int links = static_cast<int>(s.size()) - 1;
+  for (int i = 0; i < links; ++i)
+    if (topology.micro_gaps_of(i) != topology.micro_gaps_of(links - 1 - i).reversed()) return false;
   for (std::size_t j = 0; j < s.size(); ++j)
     if (!(std::abs(s[j] + s[s.size() - 1 - j]) < same)) return false;
   return true;
@@ -247,11 +370,12 @@ bool symmetric(const Topology& topology, const std::vector<double>& s) {
 }  // namespace
 
 std::vector<Successor> successors(const ContactEvent& event, const Profile& profile, const Topology& topology,
-                                  const std::vector<double>& s) {
+                                  const std::vector<double>& s, const Scales& scales) {
   std::vector<Successor> out;
-  for (Successor& next : one_sided(event, profile, topology, s)) {
+  for (Successor& next : one_sided(event, profile, topology, s, scales)) {
     // Of a symmetric state mirror images go together.
-    const bool right = next.topology.right != topology.right, left = next.topology.left != topology.left;
+    const bool right = next.topology.right != topology.right || gaps_differ(next.topology, topology, true);
+    const bool left = next.topology.left != topology.left || gaps_differ(next.topology, topology, false);
     if (right != left && symmetric(topology, s))
       out.push_back(both_sided(next, right, static_cast<int>(profile.pieces.size())));
     out.push_back(std::move(next));

@@ -15,6 +15,13 @@ Started unfold(RodProblem& halved, const Vector& x, const Vector& p, int iterati
   Topology topology = halved.topology();
   topology.half = false;
   topology.left = topology.right;
+  if (!topology.micro_gaps.empty()) {
+    std::vector<chain::MicroGaps> gaps;
+    for (auto own = topology.micro_gaps.rbegin(); own != topology.micro_gaps.rend(); ++own)
+      gaps.push_back(own->reversed());
+    gaps.insert(gaps.end(), topology.micro_gaps.begin(), topology.micro_gaps.end());
+    topology.set_micro_gaps(std::move(gaps));
+  }
   std::vector<ArcMesh> meshes = halved.meshes();
   for (auto& mesh : meshes) {
     std::vector<double> nodes;

@@ -81,8 +81,9 @@ Certificate verify(const Solution& solution, const scene::Scene& scene, const St
                error.empty() ? "arcs, joints and samples fit together" : error);
   if (!error.empty()) return list.take();
   Scales scales;
-  scales.force = std::max(1.0, std::abs(solution.has_cylinder ? solution.T : solution.end_force));
-  scales.moment = std::sqrt(scales.force);
+  const double stiffness = scene.rod.bending_stiffness;
+  scales.force = std::max(stiffness, std::abs(solution.has_cylinder ? solution.T : solution.end_force));
+  scales.moment = std::sqrt(stiffness * scales.force);
   scales.tolerance = standard.tolerance;
   try {
     check_arcs(solution, scene, scales, list);

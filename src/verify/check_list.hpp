@@ -60,8 +60,8 @@ class CheckList {
 
 /// What everything is measured against.
 struct Scales {
-  double force = 1.0;   ///< max(1, T), or max(1, end force) of a strut
-  double moment = 1.0;  ///< √force: moments and curvatures of a rod under T grow like √T
+  double force = 1.0;   ///< max(B, T), or max(B, end force) of a strut: B bends the rod round a unit length
+  double moment = 1.0;  ///< √(B force): moments of a rod under T grow like √(BT)
   double tolerance = Standard{}.tolerance;  ///< of the reference integration
 };
 

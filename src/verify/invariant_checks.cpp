@@ -44,17 +44,17 @@ void check_invariants(const Solution& solution, const scene::Scene& scene, const
       if (arc.kind == equilibrium::ArcKind::free) free_force.add((x.n - arc.n.col(0)).norm() / scales.force);
     }
   }
-  list.at_most("hamiltonian_drift", hamiltonian.value(), tight, "range of H = m·u - W + n·d3, / max(1, T)");
-  list.at_most("axial_torque_drift", torque.value(), tight, "range of (m + r×n)·e_z, / max(1, T)");
-  list.at_most("axial_force_drift", axial_force.value(), tight, "range of n_z, / max(1, T)");
-  list.at_most("free_arc_force", free_force.value(), tight, "change of n along free arcs, / max(1, T)");
+  list.at_most("hamiltonian_drift", hamiltonian.value(), tight, "range of H = m·u - W + n·d3, / max(B, T)");
+  list.at_most("axial_torque_drift", torque.value(), tight, "range of (m + r×n)·e_z, / max(B, T)");
+  list.at_most("axial_force_drift", axial_force.value(), tight, "range of n_z, / max(B, T)");
+  list.at_most("free_arc_force", free_force.value(), tight, "change of n along free arcs, / max(B, T)");
   const bool isotropic =
       scene.rod.bending_stiffness == scene.rod.bending_stiffness_2 && scene.rod.natural_curvature == 0.0;
-  if (isotropic) list.at_most("twist_drift", twist.value(), tight, "range of m·d3, / max(1, sqrt(T))");
+  if (isotropic) list.at_most("twist_drift", twist.value(), tight, "range of m·d3, / sqrt(B max(B, T))");
   if (!solution.has_cylinder || solution.joints.back().kind != JointKind::infinity) return;
   const double at_end = law.hamiltonian(last_section(solution.arcs.back()));
   list.at_most("infinite_tail", std::abs(at_end - solution.T) / scales.force, tight,
-               "H against T, its value on an infinite tail, / max(1, T)");
+               "H against T, its value on an infinite tail, / max(B, T)");
 }
 
 }  // namespace windlass::verify

@@ -35,11 +35,11 @@ void check_joints(const Solution& solution, const scene::Scene&, const Scales& s
   list.at_most("joint_position", position.value(), tight,
                "jump of r at joints, and against the joint's own r");
   list.at_most("joint_frame", frame.value(), tight, "jump of q at joints");
-  list.at_most("joint_moment", moment.value(), tight, "jump of m at joints, / max(1, sqrt(T))");
+  list.at_most("joint_moment", moment.value(), tight, "jump of m at joints, / sqrt(B max(B, T))");
   list.at_most("joint_force", force.value(), tight,
-               "jump of n plus contact and holding force at joints, / max(1, T)");
+               "jump of n plus contact and holding force at joints, / max(B, T)");
   if (!contact.any()) return;
-  list.at_least("point_force", contact.value(), -tight, "smallest contact point force, / max(1, T)");
+  list.at_least("point_force", contact.value(), -tight, "smallest contact point force, / max(B, T)");
   list.at_most("contact_position", surface.value(), tight, "distance of touches and edges from the cylinder");
   list.at_most("tangency", tangency.value(), tight, "slope to the cylinder at touches and edges");
 }
@@ -75,10 +75,10 @@ void check_capstan_ends(const End (&ends)[2], const scene::Scene& scene, const S
       clamp.add(clamp_error(end));
     }
   }
-  list.at_most("end_pull", pull.value(), tight, "internal force at the ends against the pulls, / max(1, T)");
+  list.at_most("end_pull", pull.value(), tight, "internal force at the ends against the pulls, / max(B, T)");
   if (!finite_end) return;
   if (scene.ends.kind == scene::EndKind::moment_free) {
-    list.at_most("end_moment", moment.value(), tight, "moment at moment-free ends, / max(1, sqrt(T))");
+    list.at_most("end_moment", moment.value(), tight, "moment at moment-free ends, / sqrt(B max(B, T))");
   } else {
     list.at_most("end_clamp", clamp.value(), tight, "frame of clamped ends against the pull and the plane");
   }
@@ -139,7 +139,7 @@ void check_totals(const Solution& solution, const scene::Scene& scene, const Sca
   list.at_most("load",
                std::max(std::abs(solution.T - scene.load.tension) / scales.force,
                         std::abs(solution.phi - scene.load.angle)),
-               tight, "stored T and phi against those of the scene, T / max(1, T)");
+               tight, "stored T and phi against those of the scene, T / max(B, T)");
   double sum = 0.0, first = 0.0, last = 0.0;
   bool any = false;
   for (const ArcRecord& arc : solution.arcs) sum += arc.force;

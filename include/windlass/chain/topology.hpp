@@ -12,6 +12,18 @@ namespace windlass::chain {
 /// State of a stretch of rod: line contact, free between contacts, free to the end.
 enum class Stretch { line, gap, tail };
 
+/// Gaps in a line contact too small for arcs of their own (equilibrium/micro_gap.hpp): the line goes on through them,
+/// with suction.
+struct MicroGaps {
+  bool begin =
+      false;  ///< beside the touch at the line's begin; about the mid-point where the line begins there
+  bool end = false;  ///< the same at its end
+  int inside = 0;
+  bool any() const { return begin || end || inside > 0; }
+  MicroGaps reversed() const { return {end, begin, inside}; }
+  bool operator==(const MicroGaps&) const = default;
+};
+
 /// The sequence of contacts, from the mid-point outward; joints follow from it (line–free: edge, free–free: touch).
 ///
 /// A half chain uses `right` only. `mid_touch`: the mid-point itself touches (both first stretches are then free).
@@ -19,7 +31,11 @@ struct Topology {
   std::vector<Stretch> right, left;
   bool half = true;
   bool mid_touch = false;
+  std::vector<MicroGaps> micro_gaps = {};  ///< one a link of the chain; empty where there are none
 
+  MicroGaps micro_gaps_of(int link) const { return micro_gaps.empty() ? MicroGaps{} : micro_gaps[link]; }
+  /// Keeps `micro_gaps` empty where there are none.
+  void set_micro_gaps(std::vector<MicroGaps> gaps);
   /// Whole rod, e.g. "tail touch gap line gap touch tail".
   std::string text() const;
   bool contact() const;

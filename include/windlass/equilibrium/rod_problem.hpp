@@ -41,6 +41,7 @@ class RodProblem final : public continuation::Problem {
   int total_index(const Vector& x, const Vector& p);
   int determinant_sign() override { return chain_->determinant_sign(); }
   Vector retract(const Vector& x, const Vector& dx) const override { return chain_->retract(x, dx); }
+  Vector parameter_derivative(const Vector& x, const Vector& p, Eigen::Index k) override;
   double inner(const Vector& a, const Vector& b) const override;
   Vector dual(const Vector& a) const override;
   std::vector<continuation::EventFunction> events(const Vector& x, const Vector& p) override;
