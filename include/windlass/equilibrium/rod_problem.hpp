@@ -9,6 +9,7 @@
 #include "windlass/chain/guess.hpp"
 #include "windlass/chain/profile.hpp"
 #include "windlass/chain/topology.hpp"
+#include "windlass/equilibrium/snes_newton.hpp"
 #include "windlass/scene/scene.hpp"
 
 /// Equilibria of a rod as the continuation library sees them.
@@ -49,6 +50,7 @@ class RodProblem final : public continuation::Problem {
   std::optional<Vector> adapt(const Vector& x, const Vector& p) override;
   Vector fingerprint(const Vector& x, const Vector& p) override;
   std::shared_ptr<continuation::Problem> clone() const override;
+  continuation::BorderedNewton* newton() override { return &newton_; }
 
   /// Relative error of R_tot (strut: end force): the change under one Newton step with one more stage an element.
   /// Asked again for the same state it answers from memory.
@@ -113,6 +115,7 @@ class RodProblem final : public continuation::Problem {
   int index_ = -1;                                ///< last count at a sound point
   double last_error_ = 0.0;                       ///< relative, of the target
   double nodal_error_ = 0.0;                      ///< of frames and places at element ends
+  SnesNewton newton_;
   double nodal_floor_ = 0.0;                      ///< what refinement did not reduce: rounding
   Vector estimated_x_, estimated_p_;              ///< the state the two belong to
 };
