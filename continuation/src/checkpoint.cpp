@@ -1,6 +1,7 @@
 #include "continuation/checkpoint.hpp"
 
 #include <concepts>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "archive.hpp"

@@ -1,6 +1,7 @@
 #include "app/branch_run.hpp"
 
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "app/branch_recorder.hpp"
@@ -26,12 +27,12 @@ output::WriterOptions writer_options(const BranchRequest& request, const std::st
   options.save_every = request.save_every;
   if (key != "load.tension" && key != "load.angle" && key != "ends.shortening") options.extra_parameter = key;
   // With the scene, all that decides what the run will hold.
-  options.options["from"] = nullptr;
+  nlohmann::ordered_json& said = *options.options;
+  said["from"] = nullptr;
   if (request.run)
-    options.options["from"] = {{"run", fs::weakly_canonical(*request.run).string()},
-                               {"label", request.label}};
-  options.options["eigenvalues"] = request.eigenvalues;
-  options.options["petsc"] = request.common.petsc;
+    said["from"] = {{"run", fs::weakly_canonical(*request.run).string()}, {"label", request.label}};
+  said["eigenvalues"] = request.eigenvalues;
+  said["petsc"] = request.common.petsc;
   return options;
 }
 
@@ -62,8 +63,9 @@ void require_same(const output::Run& run, const BranchRequest& request,
     refuse("it was made by version " + run.info.version + ", this is " + options.version);
   if (const std::string found = difference(run.scene_toml, request.scene.resolved_toml); !found.empty())
     refuse("in the scene " + found);
-  if (run.info.options != options.options)
-    refuse("it has the options " + run.info.options.dump() + " where this one has " + options.options.dump());
+  if (*run.info.options != *options.options)
+    refuse("it has the options " + run.info.options->dump() + " where this one has " +
+           options.options->dump());
 }
 
 /// What --resume finds in a folder.
@@ -100,7 +102,7 @@ int nothing_to_do(const output::RunInfo& info, const fs::path& folder, const Com
 continuation::DiagramState restored(const output::Checkpoint& checkpoint, const fs::path& folder,
                                     const BranchSetup& setup, const continuation::ProblemCodec& codec) {
   try {
-    return continuation::decode(checkpoint.state, setup.options, codec);
+    return continuation::decode(*checkpoint.state, setup.options, codec);
   } catch (const std::exception& error) {
     throw output::OutputError("cannot go on with " + folder.string() + ": " + error.what());
   }

@@ -1,5 +1,7 @@
 #include "windlass/equilibrium/codec.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "windlass/equilibrium/record.hpp"
 
 namespace windlass::equilibrium {

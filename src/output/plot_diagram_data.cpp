@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "windlass/output/plot.hpp"
@@ -171,7 +172,7 @@ DiagramData diagram_data(const Run& run) {
   data.x = x.axis;
   data.locus = run.info.command == "locus";
   data.title =
-      run.info.scene + (data.locus ? ", locus of " + run.info.options.value("of", "a special point") : "");
+      run.info.scene + (data.locus ? ", locus of " + run.info.options->value("of", "a special point") : "");
   std::map<int, std::vector<BranchRow>> branches;
   for (const BranchRow& row : run.rows) branches[row.branch].push_back(row);
   std::vector<std::vector<double>> seen(quantities.size() + 1);

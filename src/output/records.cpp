@@ -1,6 +1,7 @@
 #include "windlass/output/records.hpp"
 
 #include <sys/utsname.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <fstream>
@@ -138,9 +139,9 @@ ordered_json to_json(const RunInfo& info) {
   json["has_cylinder"] = info.has_cylinder;
   json["extra_parameter"] =
       info.extra_parameter.empty() ? ordered_json(nullptr) : ordered_json(info.extra_parameter);
-  json["options"] = info.options;
-  json["machine"] = info.machine;
-  json["summary"] = info.summary;
+  json["options"] = *info.options;
+  json["machine"] = *info.machine;
+  json["summary"] = *info.summary;
   json["lost_branches"] = ordered_json::array();
   for (const LostBranch& lost : info.lost_branches) json["lost_branches"].push_back(to_json(lost));
   json["timings"] = {{"points", info.timings.points},

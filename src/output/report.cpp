@@ -1,5 +1,7 @@
 #include "windlass/output/report.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "report/assets.hpp"
 #include "windlass/output/atomic_file.hpp"
 #include "windlass/output/error.hpp"

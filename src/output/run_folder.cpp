@@ -1,5 +1,7 @@
 #include "windlass/output/run_folder.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "run_files.hpp"
 #include "windlass/output/branches_csv.hpp"
 #include "windlass/output/error.hpp"

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "run_files.hpp"
 #include "windlass/output/branches_csv.hpp"
@@ -48,7 +49,7 @@ std::optional<Checkpoint> read_checkpoint(const fs::path& folder) {
   try {
     nlohmann::json json = nlohmann::json::from_cbor(bytes);
     const Extent extent{json.at("points"), json.at("special_points"), json.at("lost_branches")};
-    return Checkpoint{extent, std::move(json.at("state"))};
+    return Checkpoint{extent, std::make_shared<const nlohmann::json>(std::move(json.at("state")))};
   } catch (const nlohmann::json::exception& error) {
     throw OutputError("cannot read " + path.string() + ": it is truncated or damaged (" + error.what() + ")");
   }

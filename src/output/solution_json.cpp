@@ -1,5 +1,6 @@
 #include "windlass/output/solution_json.hpp"
 
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "windlass/output/error.hpp"

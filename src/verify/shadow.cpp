@@ -1,6 +1,6 @@
 #include "windlass/verify/shadow.hpp"
 
-#include <Eigen/Sparse>
+#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 

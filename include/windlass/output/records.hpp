@@ -1,11 +1,12 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "windlass/equilibrium/solution.hpp"
+#include "windlass/output/json_object.hpp"
 
 /// The small value types of a run folder: rows of branches.csv, special points, lost branches, run.json.
 ///
@@ -90,9 +91,9 @@ struct RunInfo {
   bool has_cylinder = true;
   std::string extra_parameter;     ///< dotted key of an extra CSV column, or empty
   std::string status = "running";  ///< "running" | "finished" | "interrupted" | "incomplete"
-  nlohmann::ordered_json options = nlohmann::ordered_json::object();
-  nlohmann::ordered_json machine = nlohmann::ordered_json::object();
-  nlohmann::ordered_json summary = nlohmann::ordered_json::object();
+  JsonObject options;
+  JsonObject machine;
+  JsonObject summary;
   std::vector<LostBranch> lost_branches;
   Timings timings;
 };

@@ -2,6 +2,8 @@
 
 #include <chrono>
 #include <filesystem>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,7 +27,7 @@ struct WriterOptions {
   std::string command = "continue";
   std::string version = "unknown";
   std::string extra_parameter;  ///< dotted key that gets its own, last CSV column; empty: none
-  nlohmann::ordered_json options = nlohmann::ordered_json::object();
+  JsonObject options;
   /// Longest time between two commits [s]; 0: at every point. Empty: a second, more where writing takes longer.
   std::optional<double> save_every;
 };
@@ -38,7 +40,7 @@ struct Extent {
 /// What a run goes on from. `state` is the business of who computes the run.
 struct Checkpoint {
   Extent extent;
-  nlohmann::json state;
+  std::shared_ptr<const nlohmann::json> state;
 };
 
 /// @return nullopt where there is none. @throws OutputError when it is unreadable or damaged

@@ -2,6 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "support/temporary_folder.hpp"
 #include "synthetic_run.hpp"

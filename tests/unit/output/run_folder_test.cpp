@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <nlohmann/json.hpp>
 
 #include <boost/test/unit_test.hpp>
 #include <fstream>

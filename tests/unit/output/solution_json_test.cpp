@@ -1,6 +1,7 @@
 #include "windlass/output/solution_json.hpp"
 
 #include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
 
 #include "unit/verify/closed_form_rods.hpp"
 
