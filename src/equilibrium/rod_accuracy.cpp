@@ -179,7 +179,40 @@ std::optional<Vector> RodProblem::moved_to(std::vector<chain::ArcMesh> meshes, c
   return std::nullopt;
 }
 
+bool RodProblem::release(Vector& x, const Vector& p) {
+  if (!chain_->holds_slide()) return true;
+  constexpr double nothing = 1e-10;  // of the pulls: below what a certificate asks
+  constexpr int most = 12;
+  const double tension = loads(p).tension;
+  const Eigen::MatrixXd none(chain_->size(), 0), corner(0, 0);
+  for (int k = 0; k < most; ++k) {
+    const double held = chain_->holding_force(x);
+    if (std::abs(held) < nothing * tension) return true;
+    factor(x, p, none, none, corner);
+    const Vector by_place = chain_->solve(Vector::Unit(chain_->size(), chain_->slide_row()), Vector(0));
+    const double slope = by_place(chain_->slide_row());
+    if (slope == 0.0) return false;
+    const double reach = 0.5 / std::sqrt(tension / rod_.bending_stiffness);  // a tail's decay length, halved
+    chain_->slide_place(x) += std::clamp(-held / slope, -reach, reach);
+    if (polish(x, p) < 0) return false;
+  }
+  return false;
+}
+
+double RodProblem::sliding_stiffness(const Vector& x, const Vector& p) {
+  total_index(x, p);  // leaves the factorisation
+  return chain_->sliding_stiffness(x, loads(p));
+}
+
 std::optional<Vector> RodProblem::adapt(const Vector& x, const Vector& p) {
+  std::optional<Vector> moved = remeshed_where_needed(x, p);
+  Vector settled = moved ? *moved : x;
+  const double before = chain_->holding_force(settled);
+  if (!release(settled, p)) return moved;
+  return chain_->holding_force(settled) != before ? std::optional(settled) : moved;
+}
+
+std::optional<Vector> RodProblem::remeshed_where_needed(const Vector& x, const Vector& p) {
   // A mesh far finer than needed costs as much as one too coarse: shed when a quarter of it or more is superfluous.
   constexpr double superfluous = 1e-3, worthwhile = 0.75;
   const double too_large = excess(x, p);

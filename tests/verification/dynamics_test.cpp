@@ -129,7 +129,7 @@ Outcome let_go(double tension, double amplitude) {
   scene.load.tension = tension;
   scene.load.angle = 2.0 * M_PI;
   scene.rod.length = 14.0;
-  const chain::Topology topology{{chain::Stretch::line, chain::Stretch::tail}, {}, true, false};
+  const chain::Topology topology{{chain::Stretch::line, chain::Stretch::tail}, true, false};
   const double contact = 0.5 * scene.load.angle - std::acos(1.0 - 0.5 / tension),
                half = 0.5 * scene.rod.length;
   equilibrium::RodProblem problem(
