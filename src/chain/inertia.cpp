@@ -35,7 +35,8 @@ int negative_eigenvalues(MatrixXd a) {
 
 }  // namespace
 
-void Chain::add_gauges(const Numbering& numbering, Purpose purpose, const VectorXd& x, MatrixXd& dense) const {
+void Chain::add_gauges(const Numbering& numbering, Purpose purpose, const VectorXd& x,
+                       MatrixXd& dense) const {
   for (int j = 0; j < joint_count(); ++j) {
     const double share = slide_share(j);
     if (share == 0.0) continue;

@@ -60,8 +60,8 @@ class RodProblem final : public continuation::Problem {
   /// Newton at fixed p on the bare chain. @returns iterations used, or −1
   int polish(Vector& x, const Vector& p, int most = 25);
   /// Lets a full chain slide along itself until nothing holds it: Newton in the gauge's place c for λ(c) = 0, which stays
-  /// well conditioned where sliding costs next to nothing. @returns is nothing held any more, to 1e-10 of the pulls?
-  bool release(Vector& x, const Vector& p);
+  /// well conditioned where sliding costs next to nothing. Done when λ is below 1e-10 of the pulls.
+  bool settle(Vector& x, const Vector& p) override;
   /// d²Π/dδ² of a slide of the whole rod along itself; see Chain::sliding_stiffness.
   double sliding_stiffness(const Vector& x, const Vector& p);
 
