@@ -194,9 +194,12 @@ std::optional<BranchPoint> polish_branch_point(Segment& segment, const Sample& l
     double last = std::numeric_limits<double>::quiet_NaN();
     for (int round = 0; round < 5; ++round) {
       Reduced reduced(problem, segment.options(), lo.it.x, lo.it.p, null, {segment.options().parameter});
-      if (multiplicity == 1) return polish_simple(segment, lo, hi, reduced, why);
-      std::optional<BranchPoint> point = polish_multiple(segment, lo, hi, reduced, multiplicity, why);
+      std::optional<BranchPoint> point = multiplicity == 1
+                                             ? polish_simple(segment, lo, hi, reduced, why)
+                                             : polish_multiple(segment, lo, hi, reduced, multiplicity, why);
       if (!point) return point;
+      problem.settle(point->x, point->p);
+      if (multiplicity == 1) return point;
       const double found = point->p[segment.options().parameter], moved = std::abs(found - last);
       if (moved <= segment.options().location_tolerance * std::max(1.0, std::abs(found))) {
         point->precision = std::max(point->precision, moved);

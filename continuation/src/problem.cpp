@@ -54,6 +54,8 @@ std::optional<Transition> Problem::transition(std::size_t, const Vector&, const 
 
 std::optional<Vector> Problem::adapt(const Vector&, const Vector&) { return std::nullopt; }
 
+bool Problem::settle(Vector&, const Vector&) { return false; }
+
 Vector Problem::fingerprint(const Vector& x, const Vector&) { return x; }
 
 }  // namespace continuation

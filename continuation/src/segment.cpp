@@ -1,6 +1,7 @@
 #include "continuation/segment.hpp"
 
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 #include <utility>
 
@@ -59,15 +60,26 @@ Sample* Segment::finish(const Borders& borders, Iterate it, bool wants_complete)
     return nullptr;
   }
   sample.s = path_length(sample.it.u, sample.it.y[0]);
+  if (!settled(sample)) return nullptr;
   if (&borders != &keller_) sample.report.factored_here = false;
   if (wants_complete && !completed(sample)) return nullptr;
   samples_.push_back(std::move(sample));
   return &samples_.back();
 }
 
+bool Segment::settled(Sample& sample) {
+  return tried([&] {
+    if (problem_->settle(sample.it.x, sample.it.p)) sample.report.factored_here = false;
+  });
+}
+
 bool Segment::completed(Sample& sample) {
+  return tried([&] { complete(sample); });
+}
+
+bool Segment::tried(const std::function<void()>& step) {
   try {
-    complete(sample);
+    step();
     return true;
   } catch (const std::domain_error& error) {
     failure_ = error.what();

@@ -1,23 +1,11 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
 #include <set>
 
 #include "app/reference.hpp"
 #include "windlass/scene/keys.hpp"
 
 namespace windlass::app {
-
-std::vector<std::string> choices_of(const CLI::Option& option) {
-  const std::string type = option.get_type_name();  // TEXT:{png,svg,pdf}
-  const auto open = type.find('{'), close = type.rfind('}');
-  std::vector<std::string> words;
-  if (open == std::string::npos || close == std::string::npos) return words;
-  for (std::string& word : CLI::detail::split(type.substr(open + 1, close - open - 1), ','))
-    words.push_back(word);
-  return words;
-}
 
 namespace {
 
@@ -30,39 +18,34 @@ std::string kind_of(const std::string& positional) {
 }
 
 /// One branch of `case $command`.
-std::string command_case(const CLI::App& command) {
+std::string command_case(const CommandText& command) {
   std::vector<std::string> options, kinds;
-  for (const CLI::Option* option : command.get_options()) {
-    if (option->get_positional()) kinds.push_back(kind_of(option->get_name(true)));
-    for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+  for (const OptionText& option : command.options) {
+    if (option.positional) kinds.push_back(kind_of(option.name));
+    options.insert(options.end(), option.long_names.begin(), option.long_names.end());
   }
-  return fmt::format("    {}) options='{}'; kinds=({}) ;;\n", command.get_name(), joined(options),
-                     joined(kinds));
+  return fmt::format("    {}) options='{}'; kinds=({}) ;;\n", command.name, joined(options), joined(kinds));
 }
 
 /// Branches of `case $previous` for options with a fixed choice, the same in every command.
-std::string choice_cases(const CLI::App& app) {
-  std::vector<std::string> seen;
+std::string choice_cases(const std::vector<CommandText>& commands) {
+  std::set<std::string> seen;
   std::string text;
-  for (const CLI::App* command : app.get_subcommands({}))
-    for (const CLI::Option* option : command->get_options()) {
-      const auto choices = choices_of(*option);
-      const std::string name = option->get_name(false, true);
-      if (choices.empty() || std::find(seen.begin(), seen.end(), name) != seen.end()) continue;
-      seen.push_back(name);
-      text += fmt::format("    {}) COMPREPLY=($(compgen -W '{}' -- \"$word\")); return ;;\n", name,
-                          joined(choices));
-    }
+  for (const CommandText& command : commands)
+    for (const OptionText& option : command.options)
+      if (!option.choices.empty() && seen.insert(option.name).second)
+        text += fmt::format("    {}) COMPREPLY=($(compgen -W '{}' -- \"$word\")); return ;;\n", option.name,
+                            joined(option.choices));
   return text;
 }
 
 /// Options without a value, of any command.
-std::string flags(const CLI::App& app) {
+std::string flags(const std::vector<CommandText>& commands) {
   std::set<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({}))
-    for (const CLI::Option* option : command->get_options())
-      if (!option->get_positional() && option->get_items_expected_max() == 0)
-        for (const std::string& name : option->get_lnames()) names.insert("--" + name);
+  for (const CommandText& command : commands)
+    for (const OptionText& option : command.options)
+      if (!option.positional && !option.takes_value)
+        names.insert(option.long_names.begin(), option.long_names.end());
   return fmt::format("{}", fmt::join(names, " "));
 }
 
@@ -103,18 +86,19 @@ complete -o filenames -F _windlass windlass ./windlass
 
 }  // namespace
 
-std::string bash_completion(const CLI::App& app) {
-  std::vector<std::string> commands, keys;
+std::string bash_completion(const CommandLine& app) {
+  const std::vector<CommandText> commands = app.describe_commands();
+  std::vector<std::string> names, keys;
   std::string cases;
-  for (const CLI::App* command : app.get_subcommands({})) {
-    commands.push_back(command->get_name());
-    cases += command_case(*command);
+  for (const CommandText& command : commands) {
+    names.push_back(command.name);
+    cases += command_case(command);
   }
   for (const scene::Key& key : scene::keys())
     if (key.table() != "scale") keys.emplace_back(key.name);
-  return fmt::format(fmt::runtime(script), fmt::arg("commands", joined(commands)),
-                     fmt::arg("choices", choice_cases(app)), fmt::arg("keys", joined(keys)),
-                     fmt::arg("cases", cases), fmt::arg("flags", flags(app)));
+  return fmt::format(fmt::runtime(script), fmt::arg("commands", joined(names)),
+                     fmt::arg("choices", choice_cases(commands)), fmt::arg("keys", joined(keys)),
+                     fmt::arg("cases", cases), fmt::arg("flags", flags(commands)));
 }
 
 }  // namespace windlass::app

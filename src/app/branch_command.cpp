@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "app/commands.hpp"
@@ -9,7 +8,7 @@ namespace windlass::app {
 namespace {
 
 /// `continue` and `diagram` take the same words: a scene file, or a run folder and the label of a stored point.
-void add_branch_command(CLI::App& command, CommonOptions& common, int& status,
+void add_branch_command(Command& command, CommonOptions& common, int& status,
                         int (*run)(const BranchRequest&)) {
   struct Words {
     std::string start, label;
@@ -17,22 +16,22 @@ void add_branch_command(CLI::App& command, CommonOptions& common, int& status,
     std::optional<double> save_every;
   };
   const auto words = std::make_shared<Words>();
-  command.add_option("SCENE", words->start, "scene file (TOML), or a run folder to restart from")
-      ->required()
-      ->type_name("");
-  command.add_option("LABEL", words->label, "with a run folder: the stored point, e.g. B1")->type_name("");
+  command.add("SCENE", words->start, "scene file (TOML), or a run folder to restart from")
+      .required()
+      .type("");
+  command.add("LABEL", words->label, "with a run folder: the stored point, e.g. B1").type("");
   add_common_options(command, common);
-  CLI::Option* resume = command.add_flag("--resume", words->resume, "go on with the run in the folder --out");
-  command.get_option("--force")->excludes(resume);
+  const Option resume = command.add_flag("--resume", words->resume, "go on with the run in the folder --out");
+  command.option("--force").excludes(resume);
   command
-      .add_option("--save-every", words->save_every,
-                  "seconds between two savings of what --resume needs; 0: at every point (default 1, more "
-                  "where saving takes long)")
-      ->check(CLI::Range(0.0, 1e6))
-      ->type_name("SECONDS");
+      .add("--save-every", words->save_every,
+           "seconds between two savings of what --resume needs; 0: at every point (default 1, more "
+           "where saving takes long)")
+      .between(0.0, 1e6)
+      .type("SECONDS");
   command.add_flag("!--no-eigenvalues", words->eigenvalues,
                    "the lowest eigenvalue at special points only; every point keeps its index");
-  command.callback([words, run, &common, &status] {
+  command.run([words, run, &common, &status] {
     BranchRequest request{common,           {}, std::nullopt, words->label, words->resume, words->eigenvalues,
                           words->save_every};
     if (std::filesystem::is_directory(words->start)) {
@@ -54,21 +53,21 @@ void add_branch_command(CLI::App& command, CommonOptions& common, int& status,
 
 }  // namespace
 
-void add_continue(CLI::App& app, CommonOptions& common, int& status) {
-  CLI::App* command = app.add_subcommand(
-      "continue", "one branch in T or phi (or any numeric scene key) from the scene's start");
-  command->footer(
+void add_continue(CommandLine& app, CommonOptions& common, int& status) {
+  Command command =
+      app.add_command("continue", "one branch in T or phi (or any numeric scene key) from the scene's start");
+  command.footer(
       "The branch and its special points go to the run folder, a row per point. Any stored point restarts a "
       "run:\n"
       "  windlass continue RUN LABEL --set continuation.to=0.1 --out DIR");
-  add_branch_command(*command, common, status, run_continue);
+  add_branch_command(command, common, status, run_continue);
 }
 
-void add_diagram(CLI::App& app, CommonOptions& common, int& status) {
-  CLI::App* command =
-      app.add_subcommand("diagram", "the branch, its special points, and every branch that leaves them");
-  command->footer("Exit status 2 if a branch was lost; the diagram then says where.");
-  add_branch_command(*command, common, status, run_diagram);
+void add_diagram(CommandLine& app, CommonOptions& common, int& status) {
+  Command command =
+      app.add_command("diagram", "the branch, its special points, and every branch that leaves them");
+  command.footer("Exit status 2 if a branch was lost; the diagram then says where.");
+  add_branch_command(command, common, status, run_diagram);
 }
 
 }  // namespace windlass::app

@@ -1,6 +1,7 @@
 #include "app/branch_recorder.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "app/branch_run.hpp"
 
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "app/branch_recorder.hpp"

@@ -96,8 +96,7 @@ BranchSetup set_up_branch(const BranchRequest& request) {
 equilibrium::Started first_state(const BranchSetup& setup) {
   const std::vector<std::string> keys{setup.key};
   if (!setup.stored)
-    return equilibrium::cold_start(setup.scene, needs_space(setup.scene),
-                                   setup.scene.model.symmetry != scene::Symmetry::none, keys);
+    return equilibrium::cold_start(setup.scene, needs_space(setup.scene), setup.scene.half_turn(), keys);
   const auto problem = equilibrium::reopen(setup.scene, *setup.stored, keys);
   const equilibrium::Started start{problem, setup.stored->state, problem->parameters(), 0};
   return setup.singular ? beside(start, setup.options.direction) : start;

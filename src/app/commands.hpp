@@ -5,16 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "app/command_line.hpp"
 #include "windlass/robustness/cold_start.hpp"
 #include "windlass/scene/scene.hpp"
 #include "windlass/verify/certificate.hpp"
 
-namespace CLI {
-class App;
-}
-
-/// The commands: each file `NAME_command.cpp` declares its options to CLI11 and, once they are parsed and the scene
-/// is read, calls the `run_NAME` below.
+/// The commands: each file `NAME_command.cpp` declares its options to the command line and, once they are parsed and the
+/// scene is read, calls the `run_NAME` below.
 namespace windlass::app {
 
 /// What the process tells the shell (CONTRACT.md).
@@ -128,7 +125,7 @@ int run_sweep(const SweepRequest& request);
 int run_precision(const PrecisionRequest& request);
 
 /// Declares a subcommand; its callback stores the exit status in `status`.
-using AddCommand = void(CLI::App& app, CommonOptions& common, int& status);
+using AddCommand = void(CommandLine& app, CommonOptions& common, int& status);
 AddCommand add_solve, add_continue, add_diagram, add_locus, add_stability, add_verify, add_plot, add_report,
     add_fit, add_figures, add_export, add_sweep, add_robustness, add_precision, add_scenes, add_manual,
     add_completion;
@@ -136,10 +133,10 @@ AddCommand add_solve, add_continue, add_diagram, add_locus, add_stability, add_v
 // ---- shared by the command files -------------------------------------------------------------------------------
 
 /// Adds --set, --out, --force, --json, --quiet to a subcommand.
-void add_common_options(CLI::App& command, CommonOptions& common);
+void add_common_options(Command& command, CommonOptions& common);
 
 /// Adds --format to a command that draws.
-void add_format_option(CLI::App& command, std::vector<std::string>& formats);
+void add_format_option(Command& command, std::vector<std::string>& formats);
 
 /// `runs/SCENE-NAME` unless --out says otherwise.
 std::filesystem::path output_folder(const CommonOptions& common, const scene::Scene& scene);

@@ -1,39 +1,37 @@
-#include <CLI/CLI.hpp>
 
 #include "app/commands.hpp"
 #include "windlass/scene/reader.hpp"
 
 namespace windlass::app {
 
-void add_common_options(CLI::App& command, CommonOptions& common) {
-  command.add_option("--set", common.set, "set a scene key, e.g. --set load.tension=2 (repeatable)")
-      ->type_name("KEY=VALUE")
-      ->take_all()
-      ->expected(1)
-      ->group("Common options");
-  command.add_option("--out", common.out, "folder for the results (default runs/SCENE-NAME)")
-      ->type_name("DIR")
-      ->group("Common options");
-  command.add_flag("--force", common.force, "replace what is in that folder")->group("Common options");
+void add_common_options(Command& command, CommonOptions& common) {
+  command.add("--set", common.set, "set a scene key, e.g. --set load.tension=2 (repeatable)")
+      .type("KEY=VALUE")
+
+      .repeatable()
+      .group(common_options_group);
+  command.add("--out", common.out, "folder for the results (default runs/SCENE-NAME)")
+      .type("DIR")
+      .group(common_options_group);
+  command.add_flag("--force", common.force, "replace what is in that folder").group(common_options_group);
   command.add_flag("--json", common.json, "print the summary as one JSON object on stdout")
-      ->group("Common options");
+      .group(common_options_group);
   command.add_flag("--quiet", common.quiet, "no progress on stderr, no summary text")
-      ->group("Common options");
+      .group(common_options_group);
 }
 
-void add_format_option(CLI::App& command, std::vector<std::string>& formats) {
-  command.add_option("--format", formats, "png, svg, pdf (repeatable); png@80 has 80 dots an inch, not 150")
-      ->transform([](std::string word) {
+void add_format_option(Command& command, std::vector<std::string>& formats) {
+  command.add("--format", formats, "png, svg, pdf (repeatable); png@80 has 80 dots an inch, not 150")
+      .checked([](const std::string& word) {
         const bool sized = word.starts_with("png@") && word.size() > 4 &&
                            word.find_first_not_of("0123456789", 4) == std::string::npos;
-        if (!sized && word != "png" && word != "svg" && word != "pdf")
-          throw CLI::ValidationError("--format", word + ": must be one of png, png@DOTS, svg, pdf");
-        return word;
+        const bool known = sized || word == "png" || word == "svg" || word == "pdf";
+        return known ? "" : word + ": must be one of png, png@DOTS, svg, pdf";
       })
-      ->type_name("TEXT:{png,svg,pdf}")
-      ->take_all()
-      ->expected(1)
-      ->capture_default_str();
+      .type("TEXT:{png,svg,pdf}")
+
+      .repeatable()
+      .default_shown();
 }
 
 std::filesystem::path output_folder(const CommonOptions& common, const scene::Scene& scene) {

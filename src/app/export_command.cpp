@@ -2,9 +2,9 @@
 
 namespace windlass::app {
 
-void add_export(CLI::App& app, CommonOptions& common, int& status) {
-  CLI::App* command = app.add_subcommand("export", "rods for ParaView (VTK files .vtp and .pvd)");
-  command->footer(
+void add_export(CommandLine& app, CommonOptions& common, int& status) {
+  Command command = app.add_command("export", "rods for ParaView (VTK files .vtp and .pvd)");
+  command.footer(
       "Open the .pvd file. It holds the centreline with directors, internal force, moment and pressure, the "
       "point\n"
       "forces (for the Glyph filter: scale by `force`), and the cylinder. Lengths are in units of rho, "
@@ -12,12 +12,12 @@ void add_export(CLI::App& app, CommonOptions& common, int& status) {
       "EI/rho^2. A branch is a sequence in ParaView's time; rod_radius is in the field data for the Tube "
       "filter.\n"
       "Files go into RUN/vtk unless --out says otherwise.");
-  const auto request = add_run(*command, common, status, run_export);
+  const auto request = add_run(command, common, status, run_export);
   command
-      ->add_option("POINT", request->label,
-                   "a stored point, e.g. B1 or 2-17, or the number of a branch (default: every branch)")
-      ->type_name("");
-  add_common_options(*command, common);
+      .add("POINT", request->label,
+           "a stored point, e.g. B1 or 2-17, or the number of a branch (default: every branch)")
+      .type("");
+  add_common_options(command, common);
 }
 
 }  // namespace windlass::app

@@ -2,9 +2,9 @@
 
 namespace windlass::app {
 
-void add_fit(CLI::App& app, CommonOptions& common, int& status) {
-  CLI::App* command = app.add_subcommand("fit", "the friction coefficient from measured sliding strengths");
-  command->footer(
+void add_fit(CommandLine& app, CommonOptions& common, int& status) {
+  Command command = app.add_command("fit", "the friction coefficient from measured sliding strengths");
+  command.footer(
       "DATA is a CSV file with the columns T, F0 and, if wanted, F0_error. Units stand in the header:\n"
       "  T [g], F0 [N], F0_error [N]\n"
       "  200, 1.93, 0.05\n"
@@ -18,15 +18,14 @@ void add_fit(CLI::App& app, CommonOptions& common, int& status) {
       "the "
       "same.\n"
       "Pictures go into RUN/fit unless --out says otherwise.");
-  const auto request = add_run(*command, common, status, run_fit);
-  command->add_option("--csv", request->csv, "measured points")->required()->type_name("DATA");
-  command->add_option("--weights", request->weights, "automatic, absolute or relative")
-      ->check(CLI::IsMember({"automatic", "absolute", "relative"}))
-      ->capture_default_str();
-  command->add_option("--min-tension", request->min_tension, "leave out points below, e.g. 3 or \"500 g\"")
-      ->type_name("T");
-  add_format_option(*command, request->formats);
-  add_common_options(*command, common);
+  const auto request = add_run(command, common, status, run_fit);
+  command.add("--csv", request->csv, "measured points").required().type("DATA");
+  command.add("--weights", request->weights, "automatic, absolute or relative")
+      .one_of({"automatic", "absolute", "relative"})
+      .default_shown();
+  command.add("--min-tension", request->min_tension, "leave out points below, e.g. 3 or \"500 g\"").type("T");
+  add_format_option(command, request->formats);
+  add_common_options(command, common);
 }
 
 }  // namespace windlass::app

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -45,12 +44,12 @@ int complain(const char* message, int status) {
 }
 
 /// CLI11 would only say that a subcommand is required.
-void check_command(const CLI::App& app, const std::string& word) {
+void check_command(const CommandLine& app, const std::string& word) {
   if (word.starts_with('-')) return;
   std::string known;
-  for (const CLI::App* command : app.get_subcommands({})) {
-    if (command->get_name() == word) return;
-    known += (known.empty() ? "" : ", ") + command->get_name();
+  for (const CommandText& command : app.describe_commands()) {
+    if (command.name == word) return;
+    known += (known.empty() ? "" : ", ") + command.name;
   }
   throw InputError(word + ": no such command; must be one of " + known);
 }
@@ -63,12 +62,8 @@ void check_ranks(const std::string& word) {
 }
 
 int run(std::vector<std::string> arguments) {
-  CLI::App app{"windlass: equilibria, bifurcations and stability of elastic rods in contact", "windlass"};
-  app.set_version_flag("--version", "windlass " WINDLASS_VERSION);
-  app.require_subcommand(1);
-  app.footer(footer);
-  app.get_formatter()->column_width(34);
-
+  CommandLine app("windlass: equilibria, bifurcations and stability of elastic rods in contact",
+                  "windlass " WINDLASS_VERSION, footer);
   CommonOptions common;
   int status = done;
   for (AddCommand* add : {add_solve, add_continue, add_diagram, add_locus, add_stability, add_verify,
@@ -84,16 +79,7 @@ int run(std::vector<std::string> arguments) {
   check_ranks(arguments.front());
   common.petsc = take_petsc_options(arguments);
   petsc::set_options(common.petsc);
-  std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back
-  try {
-    app.parse(arguments);
-  } catch (const CLI::Success& request) {  // --help, --version
-    return app.exit(request);
-  } catch (const CLI::ParseError& error) {
-    app.exit(error);  // prints the message and where help is
-    return bad_input;
-  }
-  return status;
+  return app.parse(arguments) ? status : static_cast<int>(bad_input);
 }
 
 }  // namespace

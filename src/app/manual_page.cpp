@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <sstream>
 
 #include "app/reference.hpp"
@@ -41,36 +40,30 @@ std::string prose(const std::string& text) {
   return out + (example ? ".EE\n" : "");
 }
 
-std::string option_entry(const CLI::Option& option) {
-  std::string name = option.get_positional() ? option.get_name(true) : option.get_name(false, true);
-  name = name.substr(0, name.find('{'));  // CLI11 marks a flag that sets false
-  std::string entry = ".TP\n\\fB" + roff(name) + "\\fR";
-  const std::string type = option.get_type_name();
-  if (!option.get_positional() && option.get_items_expected_max() > 0 && !type.empty())
-    entry += " \\fI" + roff(type.substr(0, type.find(':'))) + "\\fR";
-  entry += "\n" + roff(option.get_description());
-  if (!option.get_default_str().empty() && option.get_items_expected_max() > 0)
-    entry += roff(" (default " + option.get_default_str() + ")");
+std::string option_entry(const OptionText& option) {
+  std::string entry = ".TP\n\\fB" + roff(option.name) + "\\fR";
+  if (!option.positional && option.takes_value && !option.type.empty())
+    entry += " \\fI" + roff(option.type.substr(0, option.type.find(':'))) + "\\fR";
+  entry += "\n" + roff(option.help);
+  if (!option.default_text.empty() && option.takes_value)
+    entry += roff(" (default " + option.default_text + ")");
   return entry + "\n";
 }
 
-constexpr const char* common_group = "Common options";
-
-std::string entries(const CLI::App& command, bool common) {
+/// @param shown  which of the options
+template <class Shown>
+std::string entries(const CommandText& command, const Shown& shown) {
   std::string text;
   for (const bool positional : {true, false})
-    for (const CLI::Option* option : command.get_options())
-      if (option->get_positional() == positional && (option->get_group() == common_group) == common &&
-          !(option == command.get_help_ptr() && command.get_parent() != nullptr))
-        text += option_entry(*option);
+    for (const OptionText& option : command.options)
+      if (option.positional == positional && shown(option)) text += option_entry(option);
   return text;
 }
 
-std::string synopsis(const CLI::App& command) {
-  std::string text = "windlass " + command.get_name();
-  for (const CLI::Option* option : command.get_options())
-    if (option->get_positional())
-      text += option->get_required() ? " " + option->get_name(true) : " [" + option->get_name(true) + "]";
+std::string synopsis(const CommandText& command) {
+  std::string text = "windlass " + command.name;
+  for (const OptionText& option : command.options)
+    if (option.positional) text += option.required ? " " + option.name : " [" + option.name + "]";
   return roff(text) + " [options]";
 }
 
@@ -105,23 +98,23 @@ std::string run_folder() {
 
 }  // namespace
 
-std::string manual_page(const CLI::App& app) {
+std::string manual_page(const CommandLine& app) {
+  const CommandText program = app.describe();
   std::string text = fmt::format(".TH WINDLASS 1 \"\" \"windlass {}\" \"User Commands\"\n", WINDLASS_VERSION);
-  const std::string about = app.get_description();
-  text += ".SH NAME\nwindlass \\- " + roff(about.substr(about.find(':') + 2)) + "\n";
+  text += ".SH NAME\nwindlass \\- " + roff(program.about.substr(program.about.find(':') + 2)) + "\n";
   text +=
       ".SH SYNOPSIS\n\\fBwindlass\\fR \\fICOMMAND\\fR \\fISCENE\\-or\\-RUN\\fR [options] [\\-\\- PETSc "
       "options]\n";
   text += ".SH COMMANDS\n";
   std::string common;
-  for (const CLI::App* command : app.get_subcommands({})) {
-    text += ".SS \"" + synopsis(*command) + "\"\n" + roff(command->get_description()) + ".\n" +
-            entries(*command, false);
-    if (!command->get_footer().empty()) text += ".PP\n" + prose(command->get_footer());
-    if (common.empty()) common = entries(*command, true);
+  for (const CommandText& command : app.describe_commands()) {
+    text += ".SS \"" + synopsis(command) + "\"\n" + roff(command.about) + ".\n" +
+            entries(command, [](const OptionText& option) { return !option.common && !option.help_request; });
+    if (!command.footer.empty()) text += ".PP\n" + prose(command.footer);
+    if (common.empty()) common = entries(command, [](const OptionText& option) { return option.common; });
   }
-  text += ".SH COMMON OPTIONS\n" + common + entries(app, false);
-  return text + ".SH NOTES\n" + prose(app.get_footer().substr(1)) + run_folder() + scene_keys();
+  text += ".SH COMMON OPTIONS\n" + common + entries(program, [](const OptionText&) { return true; });
+  return text + ".SH NOTES\n" + prose(program.footer.substr(1)) + run_folder() + scene_keys();
 }
 
 }  // namespace windlass::app

@@ -2,17 +2,16 @@
 
 namespace windlass::app {
 
-void add_plot(CLI::App& app, CommonOptions& common, int& status) {
-  CLI::App* command =
-      app.add_subcommand("plot", "pictures: diagram, contact force, rod shapes (PNG, SVG, PDF)");
-  command->footer("Needs gnuplot. Pictures go into RUN/plots unless --out says otherwise.");
-  const auto request = add_run(*command, common, status, run_plot);
-  add_format_option(*command, request->formats);
+void add_plot(CommandLine& app, CommonOptions& common, int& status) {
+  Command command = app.add_command("plot", "pictures: diagram, contact force, rod shapes (PNG, SVG, PDF)");
+  command.footer("Needs gnuplot. Pictures go into RUN/plots unless --out says otherwise.");
+  const auto request = add_run(command, common, status, run_plot);
+  add_format_option(command, request->formats);
   command
-      ->add_option("--csv", request->csv,
-                   "measured points (T, F0) to lay over the diagram; see `windlass fit --help`")
-      ->type_name("DATA");
-  add_common_options(*command, common);
+      .add("--csv", request->csv,
+           "measured points (T, F0) to lay over the diagram; see `windlass fit --help`")
+      .type("DATA");
+  add_common_options(command, common);
 }
 
 }  // namespace windlass::app

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "app/commands.hpp"
@@ -6,10 +5,10 @@
 
 namespace windlass::app {
 
-void add_robustness(CLI::App& app, CommonOptions& common, int& status) {
-  CLI::App* command = app.add_subcommand(
+void add_robustness(CommandLine& app, CommonOptions& common, int& status) {
+  Command command = app.add_command(
       "robustness", "a map of where a start from nothing succeeds, and why it fails elsewhere");
-  command->footer(
+  command.footer(
       "Each case (tension evenly in its logarithm, angle evenly, the rod's length ample) is solved from "
       "nothing and its\n"
       "answer put to the certificate of `verify`: in the plane with --set model.kind=planar, in space "
@@ -21,30 +20,22 @@ void add_robustness(CLI::App& app, CommonOptions& common, int& status) {
       "status 2 if a case failed; one without an equilibrium is no failure.");
   const auto request = std::make_shared<RobustnessRequest>();
   const auto scene = std::make_shared<std::string>();
-  command->add_option("SCENE", *scene, "scene file (TOML)")->required()->type_name("");
-  command->add_option("--tensions", request->grid.tensions, "number of tensions")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  command->add_option("--angles", request->grid.angles, "number of angles")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
+  command.add("SCENE", *scene, "scene file (TOML)").required().type("");
+  command.add("--tensions", request->grid.tensions, "number of tensions").between(1, 1000).default_shown();
+  command.add("--angles", request->grid.angles, "number of angles").between(1, 1000).default_shown();
   const robustness::Grid whole;
   const auto tensions =
       std::make_shared<std::vector<double>>(std::vector{whole.tension_low, whole.tension_high});
   const auto angles = std::make_shared<std::vector<double>>(std::vector{whole.angle_low, whole.angle_high});
-  command->add_option("--tension-range", *tensions, "[EI/rho^2]")
-      ->expected(2)
-      ->check(CLI::PositiveNumber)
-      ->type_name("LOW HIGH")
-      ->capture_default_str();
-  command->add_option("--angle-range", *angles, "[rad]")
-      ->expected(2)
-      ->check(CLI::PositiveNumber)
-      ->type_name("LOW HIGH")
-      ->capture_default_str();
-  command->add_flag("--grid-only", request->grid_only, "leave the hard places out");
-  add_common_options(*command, common);
-  command->callback([request, scene, tensions, angles, &common, &status] {
+  command.add("--tension-range", *tensions, "[EI/rho^2]")
+      .values(2)
+      .positive()
+      .type("LOW HIGH")
+      .default_shown();
+  command.add("--angle-range", *angles, "[rad]").values(2).positive().type("LOW HIGH").default_shown();
+  command.add_flag("--grid-only", request->grid_only, "leave the hard places out");
+  add_common_options(command, common);
+  command.run([request, scene, tensions, angles, &common, &status] {
     request->common = common;
     robustness::Grid& grid = request->grid;
     grid.tension_low = tensions->front(), grid.tension_high = tensions->back();

@@ -3,6 +3,7 @@
 #include <continuation/locus.hpp>
 #include <continuation/walker.hpp>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"

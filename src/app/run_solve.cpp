@@ -116,6 +116,10 @@ void print_summary(const Solution& solution, const scene::Scene& scene) {
     for (std::size_t k = 0; k < std::min<std::size_t>(3, solution.stability->eigenvalues.size()); ++k)
       fmt::print(" {:.6g}", solution.stability->eigenvalues[k]);
     fmt::print("\n");
+    constexpr double noticeable = 1e-6;  // of T
+    if (solution.stability->sliding < -noticeable * solution.T)
+      fmt::print("  {:<12} the rod slides off along itself: d²Π/dδ² = {:.6g} (held against it above)\n",
+                 "sliding", solution.stability->sliding);
   }
   fmt::print("  {:<12} {} Newton iterations, {} unknowns, {:.2f} ms\n", "work", solution.newton_iterations,
              solution.mesh.unknowns, 1e3 * solution.seconds_total);

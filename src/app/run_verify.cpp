@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
 #include "app/stored_point.hpp"

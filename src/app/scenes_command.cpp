@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -89,12 +88,12 @@ void list_keys() {
 
 }  // namespace
 
-void add_scenes(CLI::App& app, CommonOptions& common, int& status) {
-  CLI::App* command = app.add_subcommand("scenes", "the scenes that come with the program, one line each");
+void add_scenes(CommandLine& app, CommonOptions& common, int& status) {
+  Command command = app.add_command("scenes", "the scenes that come with the program, one line each");
   const auto show_keys = std::make_shared<bool>(false);
-  command->add_flag("--keys", *show_keys, "list every scene key with its default and allowed range instead");
-  command->add_flag("--json", common.json, "as JSON");
-  command->callback([show_keys, &common, &status] {
+  command.add_flag("--keys", *show_keys, "list every scene key with its default and allowed range instead");
+  command.add_flag("--json", common.json, "as JSON");
+  command.run([show_keys, &common, &status] {
     *show_keys ? list_keys() : list_scenes(common);
     status = done;
   });

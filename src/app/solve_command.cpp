@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "app/commands.hpp"
@@ -6,13 +5,13 @@
 
 namespace windlass::app {
 
-void add_solve(CLI::App& app, CommonOptions& common, int& status) {
-  CLI::App* command = app.add_subcommand("solve", "one equilibrium at the scene's parameters");
-  command->footer("Writes a run folder only where --out asks for one.");
+void add_solve(CommandLine& app, CommonOptions& common, int& status) {
+  Command command = app.add_command("solve", "one equilibrium at the scene's parameters");
+  command.footer("Writes a run folder only where --out asks for one.");
   const auto path = std::make_shared<std::string>();
-  command->add_option("SCENE", *path, "scene file (TOML)")->required()->type_name("");
-  add_common_options(*command, common);
-  command->callback([path, &common, &status] {
+  command.add("SCENE", *path, "scene file (TOML)").required().type("");
+  add_common_options(command, common);
+  command.run([path, &common, &status] {
     status = run_solve({common, scene::read_scene(*path, common.set), !common.out.empty()});
   });
 }

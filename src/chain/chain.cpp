@@ -1,5 +1,7 @@
 #include "windlass/chain/chain.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -7,7 +9,6 @@
 
 namespace windlass::chain {
 
-using contact::Attachment;
 using contact::JointKind;
 using contact::Side;
 using contact::SmallMatrix;
@@ -18,16 +19,30 @@ namespace {
 /// An infinite tail is sampled this many decay lengths √(B/T) out: exp(−40) is below rounding.
 constexpr double tail_decay_lengths = 40.0;
 
+/// Increments of the coordinates that vary as increments of all of them.
+const double* widened(const double* kept_step, const std::vector<int>& kept,
+                      std::array<double, contact::max_coordinates>& all) {
+  all.fill(0.0);
+  for (std::size_t k = 0; k < kept.size(); ++k) all[kept[k]] = kept_step[k];
+  return all.data();
+}
+
 }  // namespace
 
-Chain::Chain(std::vector<std::unique_ptr<Joint>> joints, std::vector<double> fixed_s, std::vector<Link> links)
-    : joints_(std::move(joints)), fixed_s_(std::move(fixed_s)), links_(std::move(links)) {
+Chain::Chain(std::vector<std::unique_ptr<Joint>> joints, std::vector<double> fixed_s, std::vector<Link> links,
+             const Gauges& gauges)
+    : joints_(std::move(joints)), fixed_s_(std::move(fixed_s)), links_(std::move(links)), gauges_(gauges) {
   if (joints_.size() != links_.size() + 1 || fixed_s_.size() != joints_.size())
     throw std::invalid_argument("a chain has one joint more than arcs");
+  keep_coordinates();
   numbering_ = number(Purpose::equilibrium);
   for (int j = 0; j < joint_count(); ++j) {
     joint_at_.push_back(ambient_size_);
     ambient_size_ += joints_[j]->ambient() + (numbering_.location[j] >= 0);
+  }
+  if (numbering_.slide >= 0) {
+    slide_at_ = ambient_size_;
+    ambient_size_ += 2;
   }
   for (const Link& link : links_) {
     force_at_.push_back(ambient_size_);
@@ -49,28 +64,54 @@ Chain::Chain(std::vector<std::unique_ptr<Joint>> joints, std::vector<double> fix
   gradients_.resize(links_.size());
 }
 
-Chain::Numbering Chain::number(Purpose purpose) const {
-  Numbering n;
-  const Loads unused;
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
-    const Joint& joint = *joints_[j];
-    const bool odd_end = purpose == Purpose::odd && j == 0;
-    n.coordinate.push_back(n.size);
-    if (odd_end) {
-      const VectorXd any = VectorXd::Zero(joint.ambient() + 1);
-      n.size += joint.attach_odd(any.data(), unused).dq.cols();
-    } else {
-      n.size += joint.tangent();
+void Chain::keep_coordinates() {
+  for (int j = 0; j < joint_count(); ++j) {
+    const JointKind kind = joints_[j]->kind();
+    if (kind != JointKind::touch && kind != JointKind::edge) continue;
+    if (!in_contact_) first_contact_ = j;
+    last_contact_ = j;
+    in_contact_ = true;
+  }
+  if (!in_contact_) first_contact_ = 0, last_contact_ = joint_count() - 1;
+  const int gauge_joint = half() ? 0 : first_contact_;
+  for (int j = 0; j < joint_count(); ++j) {
+    std::vector<int> all, varied;
+    for (int k = 0; k < joints_[j]->tangent(); ++k) {
+      const bool along = gauges_.along && k == 0 && j == gauge_joint;
+      if (!along) varied.push_back(k);
+      const bool held = j == gauge_joint && ((gauges_.height && k == joints_[j]->height_coordinate()) ||
+                                             (gauges_.spin && k == joints_[j]->spin_coordinate()) || along);
+      if (!held) all.push_back(k);
     }
-    // In a variation a touch keeps its location as a direction of maximum; the edge of a line stays where it is,
-    // because moving it costs nothing to second order.
-    const bool kept =
-        joint.locates() && (purpose == Purpose::equilibrium || joint.kind() == JointKind::touch);
-    // The half-turn symmetry of a half chain implies tangency at its mid-point, but not in odd variations.
-    const bool held = joint.held() && (odd_end || j > 0);
-    n.location.push_back(kept || held ? n.size++ : -1);
-    n.pin.push_back(held && purpose != Purpose::equilibrium ? n.size++ : -1);
-    n.constraints += (n.location[j] >= 0) + (n.pin[j] >= 0);
+    kept_.push_back(all);
+    varied_.push_back(varied);
+  }
+  if (!half()) return;
+  const std::vector<int> even = joints_[0]->even();
+  const auto is_even = [&](int k) { return std::find(even.begin(), even.end(), k) != even.end(); };
+  std::copy_if(varied_[0].begin(), varied_[0].end(), std::back_inserter(odd_),
+               [&](int k) { return !is_even(k); });
+  kept_[0] = even;
+}
+
+double Chain::slide_share(int joint) const {
+  if (joint == last_contact_) return half() || first_contact_ == last_contact_ ? 1.0 : 0.5;
+  return joint == first_contact_ && !half() ? 0.5 : 0.0;
+}
+
+Chain::Numbering Chain::number(Purpose purpose) const {
+  const bool equilibrium = purpose == Purpose::equilibrium, asymmetric = !half() || purpose == Purpose::odd;
+  Numbering n;
+  for (int j = 0; j < joint_count(); ++j) {
+    n.coordinate.push_back(n.size);
+    n.size += static_cast<Eigen::Index>(kept(purpose, j).size());
+    // In a variation a touch keeps its location as a direction of maximum; the edge of a line stays where it is, because
+    // moving it costs nothing to second order. The half-turn keeps a touch at s = 0, but in odd variations.
+    const bool located =
+        equilibrium ? locates(j)
+                    : joints_[j]->kind() == JointKind::touch && (locates(j) || purpose == Purpose::odd);
+    n.location.push_back(located ? n.size++ : -1);
+    n.constraints += located;
   }
   n.geometric = n.size;
   for (const Link& link : links_) {
@@ -80,16 +121,25 @@ Chain::Numbering Chain::number(Purpose purpose) const {
       n.constraints += link.arc->forces();
     }
   }
+  const auto hold = [&](bool gauge, Eigen::Index& row) {
+    if (!gauge || !asymmetric) return;
+    row = n.size++;
+    ++n.constraints;
+  };
+  hold(gauges_.slide && in_contact_, n.slide);
+  hold(gauges_.spin && !equilibrium, n.spin);
+  hold(gauges_.height && !equilibrium, n.height);
+  hold(gauges_.phase && !equilibrium, n.phase);
   return n;
 }
 
 double Chain::arclength(const VectorXd& x, const Loads& loads, int joint) const {
-  if (joints_[joint]->locates()) return x(joint_at_[joint] + joints_[joint]->ambient());
+  if (locates(joint)) return x(joint_at_[joint] + joints_[joint]->ambient());
   return std::isinf(fixed_s_[joint]) ? fixed_s_[joint] : fixed_s_[joint] * loads.half_length;
 }
 
 void Chain::set_arclength(VectorXd& x, int joint, double s) const {
-  if (joints_[joint]->locates()) x(joint_at_[joint] + joints_[joint]->ambient()) = s;
+  if (locates(joint)) x(joint_at_[joint] + joints_[joint]->ambient()) = s;
 }
 
 VectorXd Chain::force(const VectorXd& x, const Loads& loads, int link) const {
@@ -103,8 +153,8 @@ VectorXd Chain::force(const VectorXd& x, const Loads& loads, int link) const {
 
 Chain::Placed Chain::place(const VectorXd& x, const Loads& loads, int link) const {
   Placed p;
-  p.left = joints_[link]->attach(Side::right, coordinates(x, link), loads);
-  p.right = joints_[link + 1]->attach(Side::left, coordinates(x, link + 1), loads);
+  p.left = attachment(Purpose::equilibrium, x, loads, link, Side::right);
+  p.right = attachment(Purpose::equilibrium, x, loads, link + 1, Side::left);
   p.n = force(x, loads, link);
   p.interior = interior(x, link);
   p.length = arclength(x, loads, link + 1) - arclength(x, loads, link);
@@ -119,12 +169,14 @@ Chain::Placed Chain::place(const VectorXd& x, const Loads& loads, int link) cons
 
 VectorXd Chain::retract(const VectorXd& x, const VectorXd& dx) const {
   VectorXd out = x;
+  std::array<double, contact::max_coordinates> step;
   for (int j = 0; j < joint_count(); ++j) {
     const Joint& joint = *joints_[j];
-    const double* step = dx.data() + numbering_.coordinate[j];
-    joint.retract(coordinates(x, j), step, coordinates(out, j));
+    joint.retract(coordinates(x, j), widened(dx.data() + numbering_.coordinate[j], kept_[j], step),
+                  coordinates(out, j));
     if (numbering_.location[j] >= 0) out(joint_at_[j] + joint.ambient()) += dx(numbering_.location[j]);
   }
+  if (slide_at_ >= 0) out(slide_at_ + 1) += dx(numbering_.slide);
   for (int i = 0; i < link_count(); ++i) {
     const Arc& arc = *links_[i].arc;
     if (links_[i].pull == 0)
@@ -168,11 +220,17 @@ VectorXd Chain::residual(const VectorXd& x, const Loads& loads) const {
       f.segment(numbering_.force[i], forces) = g.segment(2 * d, forces) + p.right.x - p.left.x;
   }
   for (int j = 0; j < joint_count(); ++j) {
-    f.segment(numbering_.coordinate[j], joints_[j]->tangent()) +=
-        joints_[j]->dead_load(coordinates(x, j), loads);
-    if (numbering_.location[j] < 0) continue;
-    f(numbering_.location[j]) = location(x, j).value;
-    if (joints_[j]->held()) f(numbering_.coordinate[j]) += x(joint_at_[j] + joints_[j]->ambient());
+    const SmallVector load = joints_[j]->dead_load(coordinates(x, j), loads);
+    for (std::size_t k = 0; k < kept_[j].size(); ++k) f(numbering_.coordinate[j] + k) += load(kept_[j][k]);
+    if (numbering_.location[j] >= 0) f(numbering_.location[j]) = location(x, j).value;
+  }
+  if (slide_at_ < 0) return f;
+  f(numbering_.slide) = -x(slide_at_);
+  for (int j = 0; j < joint_count(); ++j) {
+    const double share = slide_share(j);
+    if (share == 0.0) continue;
+    f(numbering_.slide) += share * arclength(x, loads, j);
+    f(numbering_.coordinate[j]) += share * x(slide_at_ + 1);
   }
   return f;
 }

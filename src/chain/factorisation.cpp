@@ -3,6 +3,7 @@
 
 #include "neutral_turn.hpp"
 #include "windlass/chain/chain.hpp"
+#include "windlass/rod/quaternion.hpp"
 
 namespace windlass::chain {
 
@@ -22,8 +23,17 @@ constexpr double nothing = 1e-8;
 
 Attachment Chain::attachment(Purpose purpose, const VectorXd& x, const Loads& loads, int joint,
                              Side side) const {
-  if (purpose == Purpose::odd && joint == 0) return joints_[0]->attach_odd(coordinates(x, 0), loads);
-  return joints_[joint]->attach(side, coordinates(x, joint), loads);
+  Attachment at = joints_[joint]->attach(side, coordinates(x, joint), loads);
+  const std::vector<int>& kept = this->kept(purpose, joint);
+  const auto count = static_cast<Eigen::Index>(kept.size());
+  if (count == at.dq.cols()) return at;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    at.dq.col(k) = at.dq.col(kept[k]).eval();
+    at.dx.col(k) = at.dx.col(kept[k]).eval();
+  }
+  at.dq.conservativeResize(Eigen::NoChange, count);
+  at.dx.conservativeResize(Eigen::NoChange, count);
+  return at;
 }
 
 bvp::EndsMatrix Chain::with_commutator(const Arc& arc, const bvp::EndsMatrix& symmetric,
@@ -59,7 +69,6 @@ Chain::Local Chain::local(Purpose purpose, const Numbering& numbering, const Vec
   };
   const auto arclength_of = [&](int joint, double sign, Side arc_side, int first_end) {
     if (numbering.location[joint] < 0) return;
-    if (purpose == Purpose::equilibrium && !joints_[joint]->locates()) return;
     l.dofs.push_back(numbering.location[joint]);
     l.columns(ends - 1, k) = sign;
     if (purpose != Purpose::equilibrium) {
@@ -97,13 +106,13 @@ void Chain::add_joint_terms(Purpose purpose, const Numbering& numbering, const V
     const double sign = side == Side::right ? -1.0 : 1.0;
     const Attachment at = attachment(purpose, x, loads, joint, side);
     const Eigen::Index first = numbering.coordinate[joint], count = at.dx.cols();
-    SmallMatrix bend = SmallMatrix::Zero(count, count);
+    const int all = joints_[joint]->tangent();
+    SmallMatrix bend = SmallMatrix::Zero(all, all);
     const SmallVector g = gradient.segment(side == Side::right ? 0 : d, d), f = sign * n;
-    if (purpose == Purpose::odd && joint == 0)
-      joints_[joint]->curvature_odd(coordinates(x, joint), f, bend);
-    else
-      joints_[joint]->curvature(side, coordinates(x, joint), loads, g, f, bend);
-    dense.block(first, first, count, count) += bend;
+    joints_[joint]->curvature(side, coordinates(x, joint), loads, g, f, bend);
+    const std::vector<int>& kept = this->kept(purpose, joint);
+    for (Eigen::Index r = 0; r < count; ++r)
+      for (Eigen::Index c = 0; c < count; ++c) dense(first + r, first + c) += bend(kept[r], kept[c]);
     if (links_[link].pull != 0) continue;
     const Eigen::Index row = numbering.force[link];
     dense.block(row, first, n.size(), count) += sign * at.dx;
@@ -115,14 +124,55 @@ void Chain::add_locations(const VectorXd& x, MatrixXd& dense) const {
   for (int j = 0; j < joint_count(); ++j) {
     const Eigen::Index row = numbering_.location[j];
     if (row < 0) continue;
-    dense.row(row).segment(numbering_.coordinate[j], joints_[j]->tangent()) +=
-        location(x, j).by_w.transpose();
-    if (joints_[j]->held()) dense(numbering_.coordinate[j], row) += 1.0;
+    const SmallVector by_w = location(x, j).by_w;
+    for (std::size_t k = 0; k < kept_[j].size(); ++k)
+      dense(row, numbering_.coordinate[j] + k) += by_w(kept_[j][k]);
+  }
+  if (slide_at_ < 0) return;
+  for (int j = 0; j < joint_count(); ++j) {
+    const double share = slide_share(j);
+    if (share == 0.0) continue;
+    dense(numbering_.slide, numbering_.location[j]) += share;
+    dense(numbering_.coordinate[j], numbering_.slide) += share;
   }
 }
 
-void Chain::factor(const VectorXd& x, const Loads& loads, const MatrixXd& b, const MatrixXd& c,
-                   const MatrixXd& d) {
+VectorXd Chain::phase_motion(Purpose purpose, const Numbering& numbering, const VectorXd& x,
+                             const Loads& loads) const {
+  VectorXd motion = VectorXd::Zero(numbering.size + size_ - dense_size_);
+  const double spin = *gauges_.phase;
+  for (int j = 0; j < joint_count(); ++j) {
+    const SmallVector turned = joints_[j]->turned(coordinates(x, j), 1.0, spin);
+    const std::vector<int>& kept = this->kept(purpose, j);
+    for (std::size_t k = 0; k < kept.size(); ++k) motion(numbering.coordinate[j] + k) = turned(kept[k]);
+  }
+  for (int i = 0; i < link_count(); ++i) {
+    if (numbering.force[i] >= 0)
+      motion.segment<3>(numbering.force[i]) =
+          Eigen::Vector3d::UnitX().cross(Eigen::Vector3d(force(x, loads, i)));
+    const Eigen::Index first = interior_row_[i] + numbering.size - dense_size_;
+    for (int k = 0; k < links_[i].arc->interior_nodes(); ++k)
+      motion.segment<3>(first + 3 * k) =
+          rod::turn_increment(Eigen::Map<const Eigen::Vector4d>(interior(x, i) + 4 * k), 1.0, spin);
+  }
+  return motion;
+}
+
+void Chain::factor(const VectorXd& x, const Loads& loads, const MatrixXd& b_asked, const MatrixXd& c_asked,
+                   const MatrixXd& d_asked) {
+  MatrixXd b = b_asked, c = c_asked, d = d_asked;
+  asked_ = d.rows();
+  if (gauges_.phase && !half()) {  // J + g gᵀ, written with one more unknown
+    const VectorXd motion = phase_motion(Purpose::equilibrium, numbering_, x, loads);
+    for (MatrixXd* border : {&b, &c}) {
+      border->conservativeResize(size_, asked_ + 1);
+      border->col(asked_) = motion;
+    }
+    d.conservativeResize(asked_ + 1, asked_ + 1);
+    d.row(asked_).setZero();
+    d.col(asked_).setZero();
+    d(asked_, asked_) = -1.0;
+  }
   std::vector<Placed> placed;
   VectorXd scratch(size_);
   for (int i = 0; i < link_count(); ++i) {
@@ -132,7 +182,7 @@ void Chain::factor(const VectorXd& x, const Loads& loads, const MatrixXd& b, con
   }
   borders_ = d.rows();
   flat_ = is_flat(placed);
-  for (Eigen::Index j = 0; j < borders_; ++j)
+  for (Eigen::Index j = 0; j < asked_; ++j)
     flat_ = flat_ && outside(b.col(j)) < nothing && outside(c.col(j)) < nothing;
   const Eigen::Index n = dense_size_, k = borders_;
   MatrixXd dense = MatrixXd::Zero(n + k, n + k);
@@ -223,8 +273,11 @@ VectorXd Chain::solve(const VectorXd& f, const VectorXd& g, bool transposed) con
   const Eigen::Index n = dense_size_, k = borders_;
   const MatrixXd& column = transposed ? border_c_ : border_b_;
   VectorXd rhs(n + k);
-  if (k > 0) rhs.tail(k) = g - (transposed ? interior_b_ : interior_c_).transpose() * f;
-  VectorXd out(size_ + k);
+  if (k > 0) {
+    rhs.tail(k) = -(transposed ? interior_b_ : interior_c_).transpose() * f;
+    rhs.segment(n, asked_) += g;
+  }
+  VectorXd out(size_ + asked_);
   VectorXd x = f;
   reduce(x, transposed);
   rhs.head(n) = x.head(n);
@@ -236,7 +289,7 @@ VectorXd Chain::solve(const VectorXd& f, const VectorXd& g, bool transposed) con
   if (flat_ && outside(f) < nothing)
     for (const Eigen::Index at : outside_) x(at) = 0.0;
   out.head(size_) = x;
-  out.tail(k) = y.tail(k);
+  out.tail(asked_) = y.segment(n, asked_);
   return out;
 }
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "windlass/chain/chain.hpp"
 #include "windlass/rod/quaternion.hpp"
 
@@ -22,8 +24,12 @@ double off_plane(const Eigen::Map<const Eigen::VectorXd>& q) {
 
 std::vector<Eigen::Index> Chain::out_of_plane() const {
   std::vector<Eigen::Index> out;
-  for (int j = 0; j < joint_count(); ++j)
-    for (const int k : joints_[j]->out_of_plane()) out.push_back(numbering_.coordinate[j] + k);
+  for (int j = 0; j < joint_count(); ++j) {
+    const std::vector<int> odd = joints_[j]->out_of_plane();
+    for (std::size_t k = 0; k < kept_[j].size(); ++k)
+      if (std::find(odd.begin(), odd.end(), kept_[j][k]) != odd.end())
+        out.push_back(numbering_.coordinate[j] + static_cast<Eigen::Index>(k));
+  }
   for (int i = 0; i < link_count(); ++i) {
     const Arc& arc = *links_[i].arc;
     if (arc.ambient() != frame && arc.ambient() != surface) continue;

@@ -45,7 +45,7 @@ void adopt_interior(const RodKind& rod, Stretch stretch, const Arc& arc, const P
 }
 
 /// Interior of a line contact in space. Frames give its material twist up to whole turns, which long coils make: they
-/// are counted from the edge on the left, and the joint on the right, or the mid-point, agrees.
+/// are counted from the edge on the left, or the mid-point of a half chain, and the joint on the right agrees.
 void adopt_line(const RodKind& rod, const Chain& chain, int link, const Profile& profile, double begin,
                 double length, VectorXd& x) {
   using contact::spatial::Edge;
@@ -58,10 +58,6 @@ void adopt_line(const RodKind& rod, const Chain& chain, int link, const Profile&
   if (is_edge(link + 1)) {
     double& end = Edge::twist(chain.coordinates(x, link + 1));
     end += turns(twist - end);
-  } else if (is_edge(link)) {  // ends at the mid-point of a full chain, where the twist starts from zero
-    const double excess = turns(twist);
-    Edge::twist(chain.coordinates(x, link)) -= excess;
-    for (int k = 0; k < arc.interior_nodes(); ++k) interior[2 * k + 1] -= excess;
   }
 }
 
@@ -93,12 +89,15 @@ Piece empty_piece(Stretch stretch, Eigen::Index count) {
 
 VectorXd guess_state(const Chain& chain, const Topology& topology, const RodKind& rod, const Profile& profile,
                      const std::vector<double>& s) {
-  const std::vector<Stretch> kinds = stretches(topology);
+  const std::vector<Stretch>& kinds = topology.stretches;
   VectorXd x = VectorXd::Zero(chain.ambient_size());
   for (int j = 0; j < chain.joint_count(); ++j) {
     chain.joint(j).adopt(profile.at(s[j]), chain.coordinates(x, j));
     chain.set_arclength(x, j, s[j]);
   }
+  if (chain.holds_slide())
+    for (int j = 0; j < chain.joint_count(); ++j)
+      if (const double share = chain.slide_share(j)) chain.slide_place(x) += share * s[j];
   for (int i = 0; i < chain.link_count(); ++i) {
     const Arc& arc = *chain.link(i).arc;
     const double begin = s[i], length = s[i + 1] - s[i];

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "neutral_turn.hpp"
 #include "windlass/chain/chain.hpp"
 
@@ -7,6 +9,7 @@ extern "C" void dsytrf_(const char* uplo, const int* n, double* a, const int* ld
 
 namespace windlass::chain {
 
+using contact::JointKind;
 using contact::Parity;
 
 namespace {
@@ -32,13 +35,27 @@ int negative_eigenvalues(MatrixXd a) {
 
 }  // namespace
 
-void Chain::add_pins(const Numbering& numbering, const VectorXd& x, MatrixXd& dense) const {
+void Chain::add_gauges(const Numbering& numbering, Purpose purpose, const VectorXd& x,
+                       MatrixXd& dense) const {
   for (int j = 0; j < joint_count(); ++j) {
-    const Eigen::Index row = numbering.pin[j], first = numbering.coordinate[j], s = numbering.location[j];
-    if (row < 0) continue;
-    dense(row, first) = dense(first, row) = 1.0;
-    dense(row, s) = dense(s, row) = -joints_[j]->slide(coordinates(x, j));
+    const double share = slide_share(j);
+    if (share == 0.0) continue;
+    const Eigen::Index first = numbering.coordinate[j], s = numbering.location[j];
+    const std::vector<int>& kept = this->kept(purpose, j);
+    const auto hold = [&](Eigen::Index row, int coordinate, double weight) {
+      if (row < 0) return;
+      const auto at = first + (std::find(kept.begin(), kept.end(), coordinate) - kept.begin());
+      dense(row, at) = dense(at, row) = weight;
+    };
+    // The material of the outermost contacts stays: mean of δa/a' − δs.
+    hold(numbering.slide, 0, share / joints_[j]->slide(coordinates(x, j)));
+    if (s >= 0 && numbering.slide >= 0) dense(numbering.slide, s) = dense(s, numbering.slide) = -share;
+    hold(numbering.height, joints_[j]->height_coordinate(), share);
+    // A frame's increment is half the angle.
+    const bool edge = joints_[j]->kind() == JointKind::edge;
+    hold(numbering.spin, joints_[j]->spin_coordinate(), edge ? share : 2.0 * share);
   }
+  if (numbering.phase >= 0) dense(numbering.phase, numbering.phase) = -1.0;
 }
 
 MatrixXd Chain::variation_matrix(Purpose purpose, const Numbering& numbering, const VectorXd& x,
@@ -46,29 +63,60 @@ MatrixXd Chain::variation_matrix(Purpose purpose, const Numbering& numbering, co
   MatrixXd dense = MatrixXd::Zero(numbering.size, numbering.size);
   for (int i = 0; i < link_count(); ++i)
     add_joint_terms(purpose, numbering, x, loads, i, gradients_[i], dense);
-  add_pins(numbering, x, dense);
+  add_gauges(numbering, purpose, x, dense);
   return dense;
+}
+
+MatrixXd Chain::condensed_variation(Purpose purpose, const Numbering& numbering, const VectorXd& x,
+                                    const Loads& loads) const {
+  MatrixXd dense = variation_matrix(purpose, numbering, x, loads);
+  const VectorXd motion = numbering.phase >= 0 ? phase_motion(purpose, numbering, x, loads) : VectorXd();
+  for (int i = 0; i < link_count(); ++i) {
+    const Arc& arc = *links_[i].arc;
+    const Local l = local(purpose, numbering, x, loads, i);
+    bvp::EndsMatrix hessian = with_commutator(arc, condensed_[i], gradients_[i]);
+    // Odd variations at a symmetry point: the other half carries the opposite moment, the commutators cancel.
+    if (purpose == Purpose::odd && i == 0 && arc.ambient() == 4)
+      hessian.block(0, 0, 3, 3) = condensed_[0].block(0, 0, 3, 3);
+    const MatrixXd share = l.columns.transpose() * hessian * l.columns;
+    for (std::size_t r = 0; r < l.dofs.size(); ++r)
+      for (std::size_t s = 0; s < l.dofs.size(); ++s) dense(l.dofs[r], l.dofs[s]) += share(r, s);
+    if (numbering.phase < 0 || arc.interior_nodes() == 0) continue;
+    const VectorXd along =
+        motion.segment(interior_row_[i] + numbering.size - dense_size_, arc.interior_tangent());
+    VectorXd solved = along;
+    bvp::EndsVector ends = bvp::EndsVector::Zero(arc.ends());
+    arc.reduce(solved.data(), ends);
+    const VectorXd column = l.columns.transpose() * ends;
+    for (std::size_t r = 0; r < l.dofs.size(); ++r) {
+      dense(l.dofs[r], numbering.phase) += column(r);
+      dense(numbering.phase, l.dofs[r]) += column(r);
+    }
+    arc.expand(solved.data(), bvp::EndsVector::Zero(arc.ends()));
+    dense(numbering.phase, numbering.phase) -= along.dot(solved);
+  }
+  return 0.5 * (dense + dense.transpose());
 }
 
 int Chain::index(const VectorXd& x, const Loads& loads, Parity parity) const {
   if (parity == Parity::odd && !half()) return 0;
   const Purpose purpose = parity == Parity::odd ? Purpose::odd : Purpose::even;
   const Numbering numbering = number(purpose);
-  MatrixXd dense = variation_matrix(purpose, numbering, x, loads);
+  const MatrixXd dense = condensed_variation(purpose, numbering, x, loads);
   int negative = 0;
-  for (int i = 0; i < link_count(); ++i) {
-    negative += links_[i].arc->negative_pivots();
-    const Local l = local(purpose, numbering, x, loads, i);
-    bvp::EndsMatrix hessian = with_commutator(*links_[i].arc, condensed_[i], gradients_[i]);
-    if (purpose == Purpose::odd && i == 0 && links_[0].arc->ambient() == 4)  // see Joint::attach_odd
-      hessian.block(0, 0, 3, 3) = condensed_[0].block(0, 0, 3, 3);
-    const MatrixXd share = l.columns.transpose() * hessian * l.columns;
-    for (std::size_t r = 0; r < l.dofs.size(); ++r)
-      for (std::size_t s = 0; s < l.dofs.size(); ++s) dense(l.dofs[r], l.dofs[s]) += share(r, s);
-  }
-  dense = (0.5 * (dense + dense.transpose())).eval();
+  for (const Link& link : links_) negative += link.arc->negative_pivots();
   negative += neutral_turn_ ? negative_but_turn(dense, numbering.location) : negative_eigenvalues(dense);
   return negative - numbering.constraints;
+}
+
+double Chain::sliding_stiffness(const VectorXd& x, const Loads& loads) const {
+  const Purpose purpose = half() ? Purpose::odd : Purpose::even;
+  const Numbering numbering = number(purpose);
+  if (numbering.slide < 0) return 0.0;
+  // K v + Φᵀμ = 0, Φ v = 1: the slide of size one that costs least, and −μ = v·K v. A half chain has half the energy.
+  const MatrixXd dense = condensed_variation(purpose, numbering, x, loads);
+  const VectorXd v = dense.partialPivLu().solve(VectorXd::Unit(numbering.size, numbering.slide));
+  return -(half() ? 2.0 : 1.0) * v(numbering.slide);
 }
 
 }  // namespace windlass::chain

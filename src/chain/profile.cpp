@@ -34,17 +34,17 @@ void resize(Piece& piece, Eigen::Index count) {
   piece.inclination.resize(count);
 }
 
-/// Planar line contact: n = n_t t, m = B e_z, p = n_t = n_a − B.
+/// Planar line contact: n = n_t t, m = B (1 − κ̂) e_z, p = n_t = n_a − m.
 void sample_planar_line(const bvp::ArcSamples& samples, const RodKind& rod, double a0, double torque,
                         Piece& piece) {
-  const double tension = torque - rod.bending_stiffness;
+  const double moment = rod.bending_stiffness * (1.0 - rod.natural_curvature()), tension = torque - moment;
   for (Eigen::Index k = 0; k < samples.sigma.size(); ++k) {
     const double a = a0 + samples.displacement(0, k);
     piece.angle(k) = a;
     piece.r.col(k) = outward(a);
     piece.q.col(k) = flat_frame(a);
     piece.n.col(k) = tension * Vector3d(std::cos(a), std::sin(a), 0.0);
-    piece.m.col(k) = Vector3d(0.0, 0.0, rod.bending_stiffness);
+    piece.m.col(k) = Vector3d(0.0, 0.0, moment);
     piece.p(k) = tension;
   }
 }
@@ -223,7 +223,7 @@ double copies(const Topology& topology, int joint) {
 Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod, const VectorXd& x,
                 const Loads& loads) {
   Profile out;
-  const std::vector<Stretch> kinds = stretches(topology);
+  const std::vector<Stretch>& kinds = topology.stretches;
   for (int i = 0; i < chain.link_count(); ++i)
     out.pieces.push_back(sample_link(chain, rod, x, loads, i, kinds[i]));
   unroll(out.pieces);
@@ -266,7 +266,7 @@ double total_contact_force(const Profile& profile, const Topology& topology) {
 
 double total_contact_force(const Chain& chain, const Topology& topology, const RodKind& rod,
                            const VectorXd& x, const Loads& loads) {
-  const std::vector<Stretch> kinds = stretches(topology);
+  const std::vector<Stretch>& kinds = topology.stretches;
   double sum = 0.0;
   Vector3d n_before = Vector3d::Zero();
   for (int i = 0; i < chain.link_count(); ++i) {

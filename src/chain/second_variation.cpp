@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "windlass/chain/chain.hpp"
 
 namespace windlass::chain {
@@ -55,6 +57,21 @@ Chain::SecondVariation Chain::second_variation(const VectorXd& x, const Loads& l
   for (Eigen::Index i = 0; i < dense.rows(); ++i)
     for (Eigen::Index j = 0; j < dense.cols(); ++j)
       if (dense(i, j) != 0.0) entries.emplace_back(i, j, dense(i, j));
+  if (numbering.phase >= 0) {
+    // K + τ M g gᵀ M, g of unit size: moves the phase out of the way and, as K g = 0, leaves all other eigenvectors as
+    // they are. A straight rod has no such motion.
+    constexpr double straight = 1e-6;  // [rad √length]
+    VectorXd motion = phase_motion(purpose, numbering, x, loads);
+    const double size = std::sqrt(motion.dot(out.metric * motion));
+    const double stiffest = out.matrix.diagonal().cwiseAbs().maxCoeff();
+    motion = size > straight ? VectorXd(out.metric * motion * (std::sqrt(stiffest) / size))
+                             : VectorXd(VectorXd::Zero(total));
+    for (Eigen::Index k = 0; k < total; ++k) {
+      if (motion(k) == 0.0) continue;
+      entries.emplace_back(k, numbering.phase, motion(k));
+      entries.emplace_back(numbering.phase, k, motion(k));
+    }
+  }
   Sparse joints(total, total);
   joints.setFromTriplets(entries.begin(), entries.end());
   out.matrix += joints;
@@ -90,11 +107,16 @@ Sparse Chain::material_metric(const Numbering& numbering, const Placed& placed, 
 }
 
 VectorXd Chain::as_increment(const VectorXd& variation, Parity parity) const {
-  const Numbering numbering = number(parity == Parity::odd && half() ? Purpose::odd : Purpose::even);
+  const Purpose purpose = parity == Parity::odd && half() ? Purpose::odd : Purpose::even;
+  const Numbering numbering = number(purpose);
   VectorXd dx = VectorXd::Zero(size_);
-  for (int j = parity == Parity::odd && half() ? 1 : 0; j < joint_count(); ++j)
-    dx.segment(numbering_.coordinate[j], joints_[j]->tangent()) =
-        variation.segment(numbering.coordinate[j], joints_[j]->tangent());
+  for (int j = parity == Parity::odd && half() ? 1 : 0; j < joint_count(); ++j) {
+    const std::vector<int>& varied = kept(purpose, j);
+    for (std::size_t k = 0; k < kept_[j].size(); ++k) {
+      const auto at = std::find(varied.begin(), varied.end(), kept_[j][k]) - varied.begin();
+      dx(numbering_.coordinate[j] + static_cast<Eigen::Index>(k)) = variation(numbering.coordinate[j] + at);
+    }
+  }
   dx.tail(size_ - dense_size_) = variation.tail(size_ - dense_size_);
   return dx;
 }

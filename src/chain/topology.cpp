@@ -25,45 +25,31 @@ const char* word(Stretch stretch) {
   return stretch == Stretch::line ? "line" : stretch == Stretch::gap ? "gap" : "tail";
 }
 
-std::unique_ptr<Joint> first_joint(const RodKind& rod, const Topology& t) {
-  const bool held = rod.clamped || rod.strut || !rod.isotropic_straight();
-  if (t.right.front() == Stretch::line) {
-    if (rod.spatial) return std::make_unique<spatial::MidLine>(held);
-    return std::make_unique<planar::MidLine>();
+/// The section or touch where the half-turn maps the rod to itself.
+std::unique_ptr<Joint> symmetric_joint(const RodKind& rod, const Topology& t) {
+  if (t.stretches.front() == Stretch::line) {
+    if (rod.spatial) return std::make_unique<spatial::SurfaceSection>();
+    return std::make_unique<planar::SurfaceSection>();
   }
   if (t.mid_touch) {
-    if (rod.spatial) return std::make_unique<spatial::MidTouch>(held);
-    return std::make_unique<planar::MidTouch>();
+    if (rod.spatial) return std::make_unique<spatial::Touch>();
+    return std::make_unique<planar::Touch>();
   }
-  if (!rod.spatial) return std::make_unique<planar::MidGap>();
-  // A strut's ends are held in space: z is no rigid motion, nor is x unless both ends are free to move under the thrust.
-  return std::make_unique<spatial::MidGap>(spatial::MidGap::OddFreedom{
-      rod.strut && !rod.under_thrust, rod.strut, held, rod.strut && rod.isotropic_straight()});
-}
-
-std::unique_ptr<Joint> marker(const RodKind& rod, const Topology& t) {
-  const bool held = rod.clamped || rod.strut || !rod.isotropic_straight();
-  if (t.mid_touch) {
-    if (rod.spatial) return std::make_unique<spatial::MarkerTouch>(held);
-    return std::make_unique<planar::MarkerTouch>();
-  }
-  if (t.right.front() == Stretch::line) {
-    if (rod.spatial) return std::make_unique<spatial::MarkerLine>(held);
-    return std::make_unique<planar::MidLine>();
-  }
-  if (rod.spatial) return std::make_unique<spatial::MarkerGap>(held, rod.strut && !rod.under_thrust);
-  return std::make_unique<planar::MarkerGap>();
+  if (rod.spatial) return std::make_unique<spatial::FreeSection>();
+  return std::make_unique<planar::FreeSection>();
 }
 
 /// Is the tail a formula? An infinite one always is, a finite one where its mesh says so.
 bool closed_form(const RodKind& rod, const ArcMesh& mesh) { return rod.infinite || mesh.stages == 0; }
 
 std::unique_ptr<Joint> end_joint(const RodKind& rod, const ArcMesh& tail, Side arc_side) {
-  if (rod.strut) return std::make_unique<spatial::StrutEnd>(arc_side, rod.under_thrust);
+  const EndKind kind = arc_side == Side::left ? rod.right : rod.left;
+  if (rod.strut)
+    return std::make_unique<spatial::FreeRodEnd>(arc_side, rod.under_thrust, kind != EndKind::clamped);
   if (closed_form(rod, tail))
     return std::make_unique<planar::FarEnd>(rod.spatial ? 3 : 1, rod.spatial ? 3 : 2);
-  if (rod.spatial) return std::make_unique<spatial::End>(arc_side, rod.clamped);
-  return std::make_unique<planar::End>(arc_side, rod.clamped);
+  if (rod.spatial) return std::make_unique<spatial::End>(arc_side, kind == EndKind::clamped);
+  return std::make_unique<planar::End>(arc_side, kind == EndKind::clamped);
 }
 
 /// Joint between two stretches, the first on the left.
@@ -76,19 +62,20 @@ std::unique_ptr<Joint> contact_joint(const RodKind& rod, Stretch left, Stretch r
   }
   const Side line = left == Stretch::line ? Side::left : Side::right;
   if (rod.spatial) return std::make_unique<spatial::Edge>(line, rod.bending_stiffness);
-  return std::make_unique<planar::Edge>(line, rod.bending_stiffness);
+  return std::make_unique<planar::Edge>(line, rod.bending_stiffness * (1.0 - rod.natural_curvature()));
 }
 
 std::unique_ptr<Arc> make_arc(const RodKind& rod, Stretch stretch, const ArcMesh& mesh, bool rightward) {
   if (stretch == Stretch::line) {
-    if (!rod.spatial) return std::make_unique<rod::PlanarLineArc>(rod.bending_stiffness);
+    if (!rod.spatial)
+      return std::make_unique<rod::PlanarLineArc>(rod.bending_stiffness, rod.natural_curvature());
     if (!rod.isotropic_straight())
       throw std::invalid_argument("a line contact needs an isotropic, naturally straight rod");
     const rod::SurfaceDensity density{rod.bending_stiffness, rod.stiffness(2)};
     return bvp::make_collocation_arc(density, mesh.nodes, mesh.stages);
   }
   if (stretch == Stretch::tail && closed_form(rod, mesh)) {
-    if (!rod.infinite && (rod.clamped || !rod.isotropic_straight()))
+    if (!rod.infinite && (rod.clamped() || !rod.isotropic_straight()))
       throw std::invalid_argument(
           "a finite tail in closed form needs a free end and an isotropic, straight rod");
     using End = rod::TailArc::End;
@@ -96,7 +83,8 @@ std::unique_ptr<Arc> make_arc(const RodKind& rod, Stretch stretch, const ArcMesh
                                           rod.infinite ? End::infinite : End::moment_free);
   }
   if (!rod.spatial)
-    return bvp::make_collocation_arc(rod::PlanarDensity{rod.bending_stiffness}, mesh.nodes, mesh.stages);
+    return bvp::make_collocation_arc(rod::PlanarDensity{rod.bending_stiffness, rod.natural_curvature()},
+                                     mesh.nodes, mesh.stages);
   return bvp::make_collocation_arc(rod::KirchhoffDensity{rod.stiffness, rod.natural}, mesh.nodes,
                                    mesh.stages);
 }
@@ -108,80 +96,81 @@ std::optional<contact::Parity> neutral_turn(const RodKind& rod, const Topology& 
   const double half_turns = rod.pull_angle / M_PI, whole = std::round(half_turns);
   constexpr double nearly = 1e-5;  // there too the turn costs too little to be told from rounding
   if (!(std::abs(half_turns - whole) < nearly)) return std::nullopt;
-  const std::vector<Stretch> all = stretches(t);
+  const std::vector<Stretch>& all = t.stretches;
   const auto has = [&](Stretch kind) { return std::find(all.begin(), all.end(), kind) != all.end(); };
   if (has(Stretch::line) && has(Stretch::gap)) return std::nullopt;
   if (std::remainder(whole, 2.0) == 0.0)
-    return rod.clamped && !rod.isotropic_straight() ? std::nullopt : std::optional(contact::Parity::odd);
-  return rod.clamped ? std::nullopt : std::optional(contact::Parity::even);
+    return rod.clamped() && !rod.isotropic_straight() ? std::nullopt : std::optional(contact::Parity::odd);
+  return rod.clamped() ? std::nullopt : std::optional(contact::Parity::even);
+}
+
+/// Which rigid motions cost nothing and are held, and how; see Chain::Gauges.
+Chain::Gauges gauges(const RodKind& rod, const Topology& t) {
+  Chain::Gauges g;
+  g.half_turn = t.half;
+  if (rod.strut) {
+    const bool pinned = rod.left != EndKind::clamped && rod.right != EndKind::clamped;
+    g.along = rod.under_thrust;
+    g.spin = pinned && rod.isotropic_straight();
+    // A shape turns about the axis of its ends while each section turns back about its tangent, to keep clamped ends.
+    if (rod.isotropic_straight() || pinned) g.phase = rod.isotropic_straight() ? -1.0 : 0.0;
+    return g;
+  }
+  g.height = rod.spatial;
+  g.spin = rod.spatial && !rod.clamped() && rod.isotropic_straight();
+  g.slide = true;
+  return g;
 }
 
 }  // namespace
 
-std::vector<Stretch> stretches(const Topology& t) {
-  std::vector<Stretch> all;
-  if (!t.half) all.assign(t.left.rbegin(), t.left.rend());
-  all.insert(all.end(), t.right.begin(), t.right.end());
-  return all;
+bool Topology::contact() const { return mid_touch || stretches.size() > 1; }
+
+Topology unfolded(const Topology& t) {
+  if (!t.half) return t;
+  Topology whole{{t.stretches.rbegin(), t.stretches.rend()}, false, false};
+  whole.stretches.insert(whole.stretches.end(), t.stretches.begin() + (t.mid_touch ? 0 : 1),
+                         t.stretches.end());
+  return whole;
 }
 
-bool Topology::contact() const { return mid_touch || right.size() > 1 || left.size() > 1; }
-
 std::string Topology::text() const {
-  const std::vector<Stretch>& other = half ? right : left;
-  std::vector<std::string> words;
-  const auto add = [&](const std::vector<Stretch>& side, bool outward) {
-    for (std::size_t k = 0; k < side.size(); ++k) {
-      const std::size_t i = outward ? k : side.size() - 1 - k;
-      if (outward && i == 0 && !mid_touch) continue;  // the first stretch spans both halves
-      if (outward && i > 0 && side[i] != Stretch::line && side[i - 1] != Stretch::line)
-        words.push_back("touch");
-      words.push_back(word(side[i]));
-      if (!outward && i > 0 && side[i] != Stretch::line && side[i - 1] != Stretch::line)
-        words.push_back("touch");
-    }
-  };
-  add(other, false);
-  if (mid_touch) words.push_back("touch");
-  add(right, true);
+  const std::vector<Stretch> all = unfolded(*this).stretches;
   std::string text;
-  for (const auto& w : words) text += (text.empty() ? "" : " ") + w;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i > 0) text += all[i] != Stretch::line && all[i - 1] != Stretch::line ? " touch " : " ";
+    text += word(all[i]);
+  }
   return text;
 }
 
 std::unique_ptr<Chain> build_chain(const RodKind& rod, const Topology& t,
                                    const std::vector<ArcMesh>& meshes) {
-  if (rod.strut && !rod.spatial) throw std::invalid_argument("struts are computed with the Kirchhoff rod");
-  const std::vector<Stretch> all = stretches(t);
+  if (rod.strut && !rod.spatial) throw std::invalid_argument("free rods are computed with the Kirchhoff rod");
+  const std::vector<Stretch>& all = t.stretches;
+  const int count = static_cast<int>(all.size());
   const double end = rod.infinite ? std::numeric_limits<double>::infinity() : 1.0;
-  const int left_count = t.half ? 0 : static_cast<int>(t.left.size());
-  const auto mesh_of = [&](std::size_t i) { return meshes.empty() ? ArcMesh{} : meshes.at(i); };
+  const auto mesh_of = [&](int i) { return meshes.empty() ? ArcMesh{} : meshes.at(i); };
   std::vector<std::unique_ptr<Joint>> joints;
-  std::vector<double> fixed;
+  std::vector<double> fixed(count + 1, 0.0);
   std::vector<Link> links;
-  for (int i = 0; i <= static_cast<int>(all.size()); ++i) {
-    if (t.half && i == 0) {
-      joints.push_back(first_joint(rod, t));
-      fixed.push_back(0.0);
-    } else if (i == 0 || i == static_cast<int>(all.size())) {
-      joints.push_back(
-          end_joint(rod, mesh_of(i == 0 ? 0 : all.size() - 1), i == 0 ? Side::right : Side::left));
-      fixed.push_back(i == 0 ? -end : end);
-    } else if (!t.half && i == left_count) {
-      joints.push_back(marker(rod, t));
-      fixed.push_back(0.0);
-    } else {
-      joints.push_back(contact_joint(rod, all[i - 1], all[i]));
-      fixed.push_back(0.0);
-    }
-    if (i == static_cast<int>(all.size())) break;
+  if (!t.half) fixed.front() = -end;
+  fixed.back() = end;
+  for (int i = 0; i <= count; ++i) {
+    if (i == 0)
+      joints.push_back(t.half ? symmetric_joint(rod, t) : end_joint(rod, mesh_of(0), Side::right));
+    else
+      joints.push_back(i == count ? end_joint(rod, mesh_of(count - 1), Side::left)
+                                  : contact_joint(rod, all[i - 1], all[i]));
+    if (i == count) break;
+    const bool leftward = i == 0 && !t.half;
     Link link;
-    link.arc = make_arc(rod, all[i], mesh_of(i), i >= left_count);
+    link.arc = make_arc(rod, all[i], mesh_of(i), !leftward);
     link.role = word(all[i]);
-    if (all[i] == Stretch::tail && !rod.strut) link.pull = i >= left_count ? 1 : -1;
+    if (all[i] == Stretch::tail && !rod.strut) link.pull = leftward ? -1 : 1;
     links.push_back(std::move(link));
   }
-  auto chain = std::make_unique<Chain>(std::move(joints), std::move(fixed), std::move(links));
+  auto chain = std::make_unique<Chain>(std::move(joints), std::move(fixed), std::move(links), gauges(rod, t));
   if (const auto parity = neutral_turn(rod, t)) chain->expect_neutral_turn(*parity);
   return chain;
 }

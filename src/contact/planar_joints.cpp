@@ -74,46 +74,31 @@ Joint::Location Edge::location(const double*, const SmallVector& g_left, const S
   c.by_w = SmallVector::Zero(1);
   if (line_ == Side::left) {  // the free arc starts here: ∂S/∂θ_a = −m
     c.side = Side::right;
-    c.value = -g_right(0) - stiffness_;
+    c.value = -g_right(0) - line_moment_;
     c.by_gradient = SmallVector::Constant(1, -1.0);
   } else {
     c.side = Side::left;
-    c.value = g_left(0) - stiffness_;
+    c.value = g_left(0) - line_moment_;
     c.by_gradient = SmallVector::Constant(1, 1.0);
   }
   return c;
 }
 
-Attachment MidLine::attach(Side, const double*, const Loads&) const {
+Attachment SurfaceSection::attach(Side, const double* w, const Loads&) const {
   Attachment at;
   at.q = Coordinates(0);
-  at.dq = SmallMatrix(0, 0);
-  at.x = SmallVector::Zero(1);
-  at.dx = SmallMatrix(1, 0);
+  at.dq = SmallMatrix(0, 1);
+  at.x = SmallVector::Constant(1, w[0]);
+  at.dx = SmallMatrix::Ones(1, 1);
   return at;
 }
 
-Attachment MidGap::attach(Side, const double* w, const Loads&) const {
+Attachment FreeSection::attach(Side, const double* w, const Loads&) const {
   SmallVector x(2);
-  x << 0.0, w[0];
-  Attachment at = fixed(0.0, x, 1);
-  at.dx(1, 0) = 1.0;
-  return at;
-}
-
-Attachment MidGap::attach_odd(const double* w, const Loads& loads) const {
-  Attachment at = attach(Side::right, w, loads);
-  at.dq = SmallMatrix::Ones(1, 1);
-  at.dx = SmallMatrix::Zero(2, 1);
-  return at;
-}
-
-Attachment MarkerGap::attach(Side, const double* w, const Loads&) const {
-  SmallVector x(2);
-  x << 0.0, w[0];
-  Attachment at = fixed(w[1], x, 2);
-  at.dx(1, 0) = 1.0;
-  at.dq(0, 1) = 1.0;
+  x << w[0], w[1];
+  Attachment at = fixed(w[2], x, 3);
+  at.dx(0, 0) = at.dx(1, 1) = 1.0;
+  at.dq(0, 2) = 1.0;
   return at;
 }
 
@@ -124,19 +109,6 @@ Attachment FarEnd::attach(Side, const double*, const Loads&) const {
   at.x = SmallVector::Zero(forces_);
   at.dx = SmallMatrix(forces_, 0);
   return at;
-}
-
-Attachment MidTouch::attach(Side, const double*, const Loads&) const { return fixed(0.0, place(0.0)); }
-
-Attachment MidTouch::attach_odd(const double*, const Loads&) const {
-  Attachment at = fixed(0.0, place(0.0), 2);
-  at.dx.col(0) = place_slope(0.0);
-  at.dq(0, 1) = 1.0;
-  return at;
-}
-
-void MidTouch::curvature_odd(const double*, const SmallVector& f, SmallMatrix& out) const {
-  out(0, 0) -= f.dot(place(0.0));
 }
 
 Attachment End::attach(Side, const double* w, const Loads& loads) const {

@@ -156,130 +156,35 @@ void Edge::retract(const double* w, const double* dw, double* out) const {
   out[3] = w[3] + dw[i + 1];
 }
 
-Attachment MidLine::attach(Side, const double* w, const Loads&) const {
-  Attachment at = sized(2, 2, 2, 1);
-  at.q << w[0], 0.0;
-  at.dq(0, 0) = 1.0;
-  return at;
-}
-
-Attachment MidLine::attach_odd(const double* w, const Loads&) const {
-  Attachment at = sized(2, 2, 2, twist_held_ ? 1 : 0);
-  at.q << w[0], 0.0;
-  if (twist_held_) at.dq(1, 0) = 1.0;
-  return at;
-}
-
-Attachment MarkerLine::attach(Side, const double* w, const Loads&) const {
+Attachment SurfaceSection::attach(Side, const double* w, const Loads&) const {
   Attachment at = sized(2, 2, 2, tangent());
-  at.q(0) = w[0];
-  if (twist_held_) at.q(1) = w[1];
-  at.dq.topLeftCorner(tangent(), tangent()).setIdentity();
+  at.q << w[2], w[3];
+  at.dq.rightCols(2).setIdentity();
+  at.x << w[0], w[1];
+  at.dx.leftCols(2).setIdentity();
   return at;
 }
 
-Attachment MarkerGap::attach(Side, const double* w, const Loads&) const {
-  const int k = places(), spins = tangent() - k;
+Attachment FreeSection::attach(Side, const double* w, const Loads&) const {
   Attachment at = sized(4, 3, 3, tangent());
-  at.q = Eigen::Map<const Eigen::Vector4d>(w + k);
-  at.dq.topRightCorner(spins, spins).setIdentity();
-  for (int i = 0; i < k; ++i) {  // (y) or (x, y)
-    at.x(2 - k + i) = w[i];
-    at.dx(2 - k + i, i) = 1.0;
-  }
+  at.q = Eigen::Map<const Eigen::Vector4d>(w + 3);
+  at.dq.rightCols(3).setIdentity();
+  at.x = Eigen::Map<const Vector3d>(w);
+  at.dx.leftCols(3).setIdentity();
   return at;
 }
 
-void MarkerGap::retract(const double* w, const double* dw, double* out) const {
-  const int k = places();
-  for (int i = 0; i < k; ++i) out[i] = w[i] + dw[i];
-  const Vector3d v(dw[k], dw[k + 1], twist_held_ ? dw[k + 2] : 0.0);
-  Eigen::Map<Eigen::Vector4d> turned(out + k);
-  turned = rod::retract(Eigen::Map<const Eigen::Vector4d>(w + k), v);
+void FreeSection::retract(const double* w, const double* dw, double* out) const {
+  for (int i = 0; i < 3; ++i) out[i] = w[i] + dw[i];
+  Eigen::Map<Eigen::Vector4d>(out + 3) =
+      rod::retract(Eigen::Map<const Eigen::Vector4d>(w + 3), Vector3d(dw + 3));
 }
 
-Attachment MarkerTouch::attach(Side, const double* w, const Loads&) const {
-  const int spins = tangent() - 1;
-  Attachment at = sized(4, 3, 3, tangent());
-  at.q = Eigen::Map<const Eigen::Vector4d>(w + 1);
-  at.dq.topRightCorner(spins, spins).setIdentity();
-  at.x = place(w[0], 0.0);
-  at.dx.col(0) = along(w[0]);
-  return at;
-}
-
-void MarkerTouch::curvature(Side, const double* w, const Loads&, const SmallVector&, const SmallVector& f,
-                            SmallMatrix& out) const {
-  out(0, 0) -= f.dot(outward(w[0]));
-}
-
-Joint::Location MarkerTouch::location(const double* w, const SmallVector&, const SmallVector&) const {
-  return tangency(w[0], Eigen::Map<const Eigen::Vector4d>(w + 1), tangent(), tangent() - 1);
-}
-
-void MarkerTouch::retract(const double* w, const double* dw, double* out) const {
-  out[0] = w[0] + dw[0];
-  const Vector3d v(dw[1], dw[2], twist_held_ ? dw[3] : 0.0);
-  Eigen::Map<Eigen::Vector4d> turned(out + 1);
-  turned = rod::retract(Eigen::Map<const Eigen::Vector4d>(w + 1), v);
-}
-
-Attachment MidGap::attach(Side, const double* w, const Loads&) const {
-  Attachment at = sized(4, 3, 3, 2);
-  at.q = surface_frame(0.0, w[1], 0.0);
-  at.dq(0, 1) = 0.5;
-  at.x << 0.0, w[0], 0.0;
-  at.dx(1, 0) = 1.0;
-  return at;
-}
-
-Attachment MidGap::attach_odd(const double* w, const Loads& loads) const {
-  const int count = 1 + odd_.along + odd_.height + odd_.spin;
-  Attachment at = attach(Side::right, w, loads);
-  at.dq = SmallMatrix::Zero(3, count);
-  at.dx = SmallMatrix::Zero(3, count);
-  int k = 0;
-  at.dq(1, k++) = 1.0;
-  if (odd_.along) at.dx(0, k++) = 1.0;
-  if (odd_.height) at.dx(2, k++) = 1.0;
-  if (odd_.spin) at.dq(2, k++) = 1.0;
-  return at;
-}
-
-void MidGap::curvature_odd(const double* w, const SmallVector&, SmallMatrix& out) const {
-  if (!odd_.phase) return;
-  // Rotation of the shape about e_x with the opposite spin about d₃, so that the clamped frames stay: at the mid-point
-  // δr = e_x × r, and the half rotation vector ½ (Rᵀ e_x − e₃).
-  SmallVector turn = SmallVector::Zero(out.rows());
-  turn(0) = 0.5 * std::sin(w[1]);
-  if (odd_.height) turn(1 + odd_.along) = w[0];
-  if (odd_.spin) turn(1 + odd_.along + odd_.height) = 0.5 * (std::cos(w[1]) - 1.0);
-  constexpr double straight = 1e-6, stiffness = 1e4;  // [ρ], [EI/ρ³]: far above the eigenvalues of interest
-  const double size = turn.norm();
-  if (size > straight) out += stiffness / (size * size) * turn * turn.transpose();
-}
-
-Attachment MidTouch::attach(Side, const double* w, const Loads&) const {
-  Attachment at = sized(4, 3, 3, 1);
-  at.q = surface_frame(0.0, w[0], 0.0);
-  at.dq(0, 0) = 0.5;
-  at.x = place(0.0, 0.0);
-  return at;
-}
-
-Attachment MidTouch::attach_odd(const double* w, const Loads& loads) const {
-  const int count = twist_held_ ? 3 : 2;
-  Attachment at = attach(Side::right, w, loads);
-  at.dq = SmallMatrix::Zero(3, count);
-  at.dx = SmallMatrix::Zero(3, count);
-  at.dx.col(0) = along(0.0);
-  at.dq(1, 1) = 1.0;
-  if (twist_held_) at.dq(2, 2) = 1.0;
-  return at;
-}
-
-void MidTouch::curvature_odd(const double*, const SmallVector& f, SmallMatrix& out) const {
-  out(0, 0) -= f.dot(outward(0.0));
+SmallVector FreeSection::turned(const double* w, double turn, double spin) const {
+  SmallVector out(tangent());
+  out.head(3) = turn * Vector3d::UnitX().cross(Eigen::Map<const Vector3d>(w));
+  out.tail(3) = rod::turn_increment(Eigen::Map<const Eigen::Vector4d>(w + 3), turn, spin);
+  return out;
 }
 
 Attachment End::attach(Side, const double* w, const Loads& loads) const {
@@ -301,20 +206,26 @@ void End::retract(const double* w, const double* dw, double* out) const {
   turned = rod::retract(Eigen::Map<const Eigen::Vector4d>(w), v);
 }
 
-Attachment StrutEnd::attach(Side, const double* w, const Loads& loads) const {
+Attachment FreeRodEnd::attach(Side, const double* w, const Loads& loads) const {
   Attachment at = sized(4, 3, 3, tangent());
   const double sign = arc_ == Side::left ? 1.0 : -1.0;  // the arc that ends here is the right half
-  at.q =
-      rod::product(surface_frame(0.0, 0.0, 0.0), rod::rotation(Vector3d::UnitZ(), 0.5 * sign * loads.twist));
+  if (pinned_) {
+    at.q = Eigen::Map<const Eigen::Vector4d>(w + under_thrust_);
+    at.dq.rightCols(3).setIdentity();
+  } else {
+    at.q = rod::product(surface_frame(0.0, 0.0, 0.0),
+                        rod::rotation(Vector3d::UnitZ(), 0.5 * sign * loads.twist));
+  }
   at.x(0) = under_thrust_ ? w[0] : sign * (1.0 - loads.shortening) * loads.half_length;
   if (under_thrust_) at.dx(0, 0) = 1.0;
   return at;
 }
 
-SmallVector StrutEnd::dead_load(const double*, const Loads& loads) const {
+SmallVector FreeRodEnd::dead_load(const double*, const Loads& loads) const {
   // Potential of the thrust: −F·r_end with F = ∓thrust e_x.
-  const double sign = arc_ == Side::left ? 1.0 : -1.0;
-  return SmallVector::Constant(tangent(), sign * loads.thrust);
+  SmallVector load = SmallVector::Zero(tangent());
+  if (under_thrust_) load(0) = (arc_ == Side::left ? 1.0 : -1.0) * loads.thrust;
+  return load;
 }
 
 void Touch::adopt(const Place& place, double* w) const {
@@ -332,38 +243,37 @@ void Edge::adopt(const Place& place, double* w) const {
   if (surface_frame(w[0], w[2], w[3]).dot(place.q) < 0.0) w[3] += 2.0 * M_PI;  // the quaternion of this sign
 }
 
-void MidLine::adopt(const Place& place, double* w) const { w[0] = surface_coordinates(place.q, 0.0)(1); }
-
-void MarkerLine::adopt(const Place& place, double* w) const {
-  const Vector3d c = surface_coordinates(place.q, 0.0);
-  w[0] = c(1);
-  if (twist_held_) w[1] = c(2);
+void SurfaceSection::adopt(const Place& place, double* w) const {
+  const Vector3d c = surface_coordinates(place.q, place.angle);
+  w[0] = place.angle, w[1] = place.r(2), w[2] = c(1), w[3] = 0.0;
 }
 
-void MarkerGap::adopt(const Place& place, double* w) const {
-  const int k = places();
-  for (int i = 0; i < k; ++i) w[i] = place.r(2 - k + i);
-  Eigen::Map<Eigen::Vector4d>{w + k} = place.q;
+void FreeSection::adopt(const Place& place, double* w) const {
+  Eigen::Map<Vector3d>{w} = place.r;
+  Eigen::Map<Eigen::Vector4d>{w + 3} = place.q;
 }
-
-void MarkerTouch::adopt(const Place& place, double* w) const {
-  w[0] = place.angle;
-  Eigen::Map<Eigen::Vector4d>{w + 1} = place.q;
-}
-
-void MidGap::adopt(const Place& place, double* w) const {
-  w[0] = place.r(1);
-  w[1] = surface_coordinates(place.q, 0.0)(1);
-}
-
-void MidTouch::adopt(const Place& place, double* w) const { w[0] = surface_coordinates(place.q, 0.0)(1); }
 
 void End::adopt(const Place& place, double* w) const {
   if (!clamped_) Eigen::Map<Eigen::Vector4d>{w} = place.q;
 }
 
-void StrutEnd::adopt(const Place& place, double* w) const {
+void FreeRodEnd::adopt(const Place& place, double* w) const {
   if (under_thrust_) w[0] = place.r(0);
+  if (pinned_) Eigen::Map<Eigen::Vector4d>{w + under_thrust_} = place.q;
+}
+
+void FreeRodEnd::retract(const double* w, const double* dw, double* out) const {
+  if (under_thrust_) out[0] = w[0] + dw[0];
+  if (!pinned_) return;
+  Eigen::Map<Eigen::Vector4d>{out + under_thrust_} = rod::retract(
+      Eigen::Map<const Eigen::Vector4d>(w + under_thrust_), Vector3d(dw + static_cast<int>(under_thrust_)));
+}
+
+SmallVector FreeRodEnd::turned(const double* w, double turn, double spin) const {
+  SmallVector out = SmallVector::Zero(tangent());
+  if (pinned_)
+    out.tail(3) = rod::turn_increment(Eigen::Map<const Eigen::Vector4d>(w + under_thrust_), turn, spin);
+  return out;
 }
 
 }  // namespace windlass::contact::spatial

@@ -39,7 +39,7 @@ std::optional<Started> attempt(const scene::Scene& scene, bool spatial, bool hal
                                const std::vector<std::string>& keys, const Draft& draft,
                                const chain::Profile& profile) {
   const Loads loads = loads_of(scene);
-  Topology topology{draft.right, {}, true, draft.mid_touch};
+  Topology topology{draft.right, true, draft.mid_touch};
   std::vector<ArcMesh> meshes;
   for (std::size_t i = 0; i < draft.right.size(); ++i)
     meshes.push_back(first_mesh(draft.right[i], loads, draft.s[i + 1] - draft.s[i]));

@@ -82,23 +82,13 @@ bool hardly_apart(const Profile& profile, int link) {
   return touches == 2;
 }
 
-ContactEvent length_event(const Profile& profile, const Topology& topology, int i) {
-  const int mid = static_cast<int>(topology.left.size());
-  const double length = length_of(profile.pieces[i]);
-  ContactEvent event{Kind::length, i, length - least_length, profile.pieces[i].s(0)};
+ContactEvent length_event(const Profile& profile, int i) {
+  ContactEvent event{Kind::length, i, length_of(profile.pieces[i]) - least_length, profile.pieces[i].s(0)};
   event.imminent = hardly_apart(profile, i);
-  const bool at_mid = !topology.half && !topology.mid_touch && (i == mid || i == mid - 1);
-  if (at_mid && one_side_ends(length, length_of(profile.pieces[2 * mid - 1 - i])))
-    event.value = length + past_mid;
   return event;
 }
 
 }  // namespace
-
-bool one_side_ends(double length, double other_length) {
-  constexpr double lasting = 0.05;
-  return length < lasting && other_length > lasting;
-}
 
 std::string ContactEvent::name() const {
   static const char* const words[] = {"pressure", "length", "force", "curvature", "graze"};
@@ -110,9 +100,9 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
   const int count = static_cast<int>(profile.pieces.size());
   for (int i = 0; i < count; ++i) {
     const Piece& piece = profile.pieces[i];
-    const bool at_mid = i == static_cast<int>(topology.left.size());
+    const bool at_mid = topology.half && i == 0;
     if (piece.stretch == Stretch::line) events.push_back(least_pressure(piece, i));
-    if (piece.stretch != Stretch::tail) events.push_back(length_event(profile, topology, i));
+    if (piece.stretch != Stretch::tail) events.push_back(length_event(profile, i));
     if (piece.stretch != Stretch::line) events.push_back(graze(piece, i, at_mid && !topology.mid_touch));
   }
   for (const Contact& c : profile.contacts) {

@@ -87,22 +87,6 @@ JointRecord contact_record(const chain::Contact& c, double sign) {
   return joint;
 }
 
-/// Jump of the internal force at the mid-point that no contact makes, along the rod there. Zero where it is rounding.
-double holding_force(const ArcRecord& before, const ArcRecord& after, const Vector3d& along) {
-  constexpr double rounding = 1e-12;
-  const Vector3d n = before.n.rightCols<1>();
-  const double force = (n - after.n.col(0)).dot(along);
-  return std::abs(force) > rounding * std::max(1.0, n.norm()) ? force : 0.0;
-}
-
-JointRecord held_record(const ArcRecord& after) {
-  JointRecord joint;
-  joint.kind = JointKind::held;
-  joint.r = after.r.col(0);
-  joint.angle = after.kind == ArcKind::line ? 0.0 : std::atan2(joint.r(0), -joint.r(1));
-  return joint;
-}
-
 /// Arcs and joints of the whole rod from −L/2 to L/2.
 void assemble(const chain::Profile& shape, const Topology& topology, bool infinite, Solution& out) {
   const chain::Profile whole = topology.half ? chain::mirrored(shape) : shape;
@@ -113,16 +97,10 @@ void assemble(const chain::Profile& shape, const Topology& topology, bool infini
     for (std::size_t j = shape.contacts.size(); j-- > 0;)
       if (!(topology.mid_touch && j == 0)) contacts.push_back(contact_record(shape.contacts[j], -1.0));
   for (const chain::Contact& c : shape.contacts) contacts.push_back(contact_record(c, 1.0));
-  const std::size_t marker = topology.half ? topology.right.size() : topology.left.size();
-  JointRecord mid = topology.mid_touch ? contacts[marker - 1] : held_record(arcs[marker]);
-  if (!topology.half) mid.holding = holding_force(arcs[marker - 1], arcs[marker], mid.holding_direction());
-  if (topology.mid_touch) {
-    contacts[marker - 1] = mid;
-  } else if (mid.holding != 0.0) {
-    contacts.insert(contacts.begin() + static_cast<std::ptrdiff_t>(marker - 1), mid);
-  } else {  // the mid-point is no joint: its stretch spans both halves
-    append(arcs[marker - 1], arcs[marker]);
-    arcs.erase(arcs.begin() + static_cast<std::ptrdiff_t>(marker));
+  if (topology.half && !topology.mid_touch) {  // the mid-point is no joint: its stretch spans both halves
+    const std::size_t middle = topology.stretches.size();
+    append(arcs[middle - 1], arcs[middle]);
+    arcs.erase(arcs.begin() + static_cast<std::ptrdiff_t>(middle));
   }
   out.joints.push_back(end_record(arcs.front(), false, infinite));
   out.joints.insert(out.joints.end(), contacts.begin(), contacts.end());
@@ -130,16 +108,12 @@ void assemble(const chain::Profile& shape, const Topology& topology, bool infini
   out.arcs = std::move(arcs);
 }
 
-void measure_shape(Solution& out) {
-  double low = 1e300, high = -1e300, first = 1e300, last = -1e300, nearest = 1e300;
+void measure_shape(const chain::Profile& shape, Solution& out) {
+  double low = 1e300, high = -1e300, first = 1e300, last = -1e300;
+  out.tilt = std::asin(std::clamp(rod::directors(shape.at(0.0).q)(2, 2), -1.0, 1.0));
   for (const ArcRecord& arc : out.arcs) {
     low = std::min(low, arc.r.row(2).minCoeff());
     high = std::max(high, arc.r.row(2).maxCoeff());
-    for (Eigen::Index k = 0; k < arc.s.size(); ++k)
-      if (std::abs(arc.s(k)) < nearest) {
-        nearest = std::abs(arc.s(k));
-        out.tilt = std::asin(std::clamp(rod::directors(arc.q.col(k))(2, 2), -1.0, 1.0));
-      }
   }
   for (const JointRecord& joint : out.joints) {
     if (joint.kind != JointKind::touch && joint.kind != JointKind::edge) continue;
@@ -196,7 +170,7 @@ Solution record(RodProblem& problem, const Vector& x, const Vector& p) {
   out.converged = true;
   out.topology = scene.has_cylinder ? topology.text() : "strut";
   assemble(shape, topology, problem.rod().infinite, out);
-  measure_shape(out);
+  measure_shape(shape, out);
   const double copies = topology.half ? 2.0 : 1.0;
   for (int i = 0; i < problem.chain().link_count(); ++i) {
     const bvp::Arc& arc = *problem.chain().link(i).arc;
@@ -205,6 +179,10 @@ Solution record(RodProblem& problem, const Vector& x, const Vector& p) {
     if (arc.elements() > 0) out.mesh.stages = arc.stages();
   }
   out.mesh.unknowns = static_cast<int>(problem.chain().size());
+  // Holding forces act on the rod like contact forces, against λ's sign in the balance.
+  for (int j = 0; j < problem.chain().joint_count(); ++j)
+    if (const double share = problem.chain().slide_share(j); share > 0.0 && problem.chain().holds_slide())
+      out.joints[j].holding = -share * problem.chain().holding_force(x);
   if (scene.has_cylinder) {
     out.R_tot = chain::total_contact_force(shape, topology);
     if (scene.friction) out.F0 = *scene.friction * out.R_tot;
@@ -223,16 +201,11 @@ Solution record(RodProblem& problem, const Vector& x, const Vector& p) {
 
 std::string chain_of(const RodProblem& problem) {
   nlohmann::json chain;
-  const auto words = [](const std::vector<Stretch>& side) {
-    std::vector<int> out;
-    for (Stretch s : side) out.push_back(static_cast<int>(s));
-    return out;
-  };
   chain["spatial"] = problem.spatial();
   chain["half"] = problem.topology().half;
   chain["mid_touch"] = problem.topology().mid_touch;
-  chain["right"] = words(problem.topology().right);
-  chain["left"] = words(problem.topology().left);
+  for (const Stretch stretch : problem.topology().stretches)
+    chain["stretches"].push_back(static_cast<int>(stretch));
   for (const auto& mesh : problem.meshes())
     chain["meshes"].push_back({{"nodes", mesh.nodes}, {"stages", mesh.stages}});
   return chain.dump();
@@ -246,8 +219,7 @@ std::shared_ptr<RodProblem> rebuild(const scene::Scene& scene, const std::string
   Topology topology;
   topology.half = chain.at("half");
   topology.mid_touch = chain.at("mid_touch");
-  for (int k : chain.at("right")) topology.right.push_back(static_cast<Stretch>(k));
-  for (int k : chain.at("left")) topology.left.push_back(static_cast<Stretch>(k));
+  for (int k : chain.at("stretches")) topology.stretches.push_back(static_cast<Stretch>(k));
   std::vector<chain::ArcMesh> meshes;
   for (const auto& mesh : chain.at("meshes"))
     meshes.push_back({mesh.at("nodes").get<std::vector<double>>(), mesh.at("stages").get<int>()});

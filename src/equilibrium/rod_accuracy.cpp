@@ -140,6 +140,7 @@ double RodProblem::excess(const Vector& x, const Vector& p) {
 
 Vector RodProblem::refine(Vector x, const Vector& p, int rounds) {
   for (int k = 0; k < rounds; ++k) {
+    settle(x, p);
     const double before = nodal_error_;
     double too_large = excess(x, p);
     if (k > 1 && nodal_error_ > 0.3 * before) {
@@ -155,6 +156,7 @@ Vector RodProblem::refine(Vector x, const Vector& p, int rounds) {
     x = chain::transfer_state(*old, *chain_, x, at);
     if (polish(x, p) < 0) throw std::runtime_error("Newton failed after the mesh was adapted");
   }
+  settle(x, p);
   error_estimate(x, p);
   return x;
 }
@@ -179,7 +181,37 @@ std::optional<Vector> RodProblem::moved_to(std::vector<chain::ArcMesh> meshes, c
   return std::nullopt;
 }
 
+bool RodProblem::settle(Vector& x, const Vector& p) {
+  constexpr double nothing = 1e-10;  // of the pulls: below what a certificate asks
+  constexpr int most = 12;
+  const double tension = loads(p).tension;
+  if (std::abs(chain_->holding_force(x)) < nothing * tension) return false;
+  const Eigen::MatrixXd none(chain_->size(), 0), corner(0, 0);
+  for (int k = 0; k < most; ++k) {
+    factor(x, p, none, none, corner);
+    const Vector by_place = chain_->solve(Vector::Unit(chain_->size(), chain_->slide_row()), Vector(0));
+    const double slope = by_place(chain_->slide_row());
+    if (slope == 0.0) break;
+    const double reach = 0.5 / std::sqrt(tension / rod_.bending_stiffness);  // a tail's decay length, halved
+    chain_->slide_place(x) += std::clamp(-chain_->holding_force(x) / slope, -reach, reach);
+    if (polish(x, p) < 0) break;
+    if (std::abs(chain_->holding_force(x)) < nothing * tension) return true;
+  }
+  throw std::domain_error("the rod slides along itself: nothing balances it here");
+}
+
+double RodProblem::sliding_stiffness(const Vector& x, const Vector& p) {
+  total_index(x, p);  // leaves the factorisation
+  return chain_->sliding_stiffness(x, loads(p));
+}
+
 std::optional<Vector> RodProblem::adapt(const Vector& x, const Vector& p) {
+  std::optional<Vector> moved = remeshed_where_needed(x, p);
+  if (moved) settle(*moved, p);
+  return moved;
+}
+
+std::optional<Vector> RodProblem::remeshed_where_needed(const Vector& x, const Vector& p) {
   // A mesh far finer than needed costs as much as one too coarse: shed when a quarter of it or more is superfluous.
   constexpr double superfluous = 1e-3, worthwhile = 0.75;
   const double too_large = excess(x, p);

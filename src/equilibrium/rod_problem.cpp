@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "windlass/rod/quaternion.hpp"
 #include "windlass/scene/keys.hpp"
 
 namespace windlass::equilibrium {
@@ -37,18 +38,29 @@ Loads loads_of(const scene::Scene& scene) {
   return loads;
 }
 
+namespace {
+
+/// The end of a free rod holds its place on e_x: an end free of moment is a pin there.
+chain::EndKind end_kind(const scene::Scene& scene, scene::EndKind kind) {
+  if (kind == scene::EndKind::clamped) return chain::EndKind::clamped;
+  return scene.has_cylinder ? chain::EndKind::moment_free : chain::EndKind::pinned;
+}
+
+}  // namespace
+
 chain::RodKind rod_of(const scene::Scene& scene, bool spatial) {
   chain::RodKind rod;
   rod.spatial = spatial;
-  rod.clamped = scene.ends.kind == scene::EndKind::clamped;
+  rod.left = end_kind(scene, scene.ends.left_kind());
+  rod.right = end_kind(scene, scene.ends.right_kind());
   rod.infinite = scene.rod.infinite();
   rod.strut = !scene.has_cylinder;
   rod.under_thrust = !scene.ends.shortening.has_value();
   if (spatial && scene.has_cylinder) rod.pull_angle = scene.load.angle;
   rod.bending_stiffness = scene.rod.bending_stiffness;
-  rod.stiffness = {scene.rod.bending_stiffness, scene.rod.bending_stiffness_2,
+  rod.stiffness = {scene.rod.bending_stiffness_2, scene.rod.bending_stiffness,
                    scene.rod.twist_ratio * scene.rod.bending_stiffness};
-  rod.natural = {scene.rod.natural_curvature, 0.0, scene.rod.natural_twist};
+  rod.natural = {0.0, -scene.rod.natural_curvature, scene.rod.natural_twist};
   return rod;
 }
 
@@ -227,16 +239,14 @@ std::shared_ptr<continuation::Problem> RodProblem::clone() const {
 Vector RodProblem::fingerprint(const Vector& x, const Vector& p) {
   const Loads at = loads(p);
   const chain::Profile shape = profile(x, p);
-  double energy = 0.0, z_low = 0.0, z_high = 0.0, tilt = 0.0, nearest = 1e300;
+  double energy = 0.0, z_low = 0.0, z_high = 0.0;
   for (int i = 0; i < chain_->link_count(); ++i)
     energy += chain_->link(i).arc->energy(chain_->place(x, at, i).point());
   for (const chain::Piece& piece : shape.pieces) {
     z_low = std::min(z_low, piece.r.row(2).minCoeff());
     z_high = std::max(z_high, piece.r.row(2).maxCoeff());
-    for (Eigen::Index k = 0; k < piece.s.size(); ++k)
-      if (std::abs(piece.s(k)) < nearest)
-        nearest = std::abs(piece.s(k)), tilt = std::abs(piece.inclination(k));
   }
+  const double tilt = std::abs(std::asin(std::clamp(rod::directors(shape.at(0.0).q)(2, 2), -1.0, 1.0)));
   Vector print(5);
   print << target(*chain_, x, at), energy, z_high - z_low, tilt, static_cast<double>(shape.contacts.size());
   return print;

@@ -32,8 +32,7 @@ Entry draft(const RodProblem& from, const Successor& next, const chain::Profile&
   std::vector<chain::ArcMesh> meshes;
   for (int source : next.source)
     meshes.push_back(from.meshes().empty() ? chain::ArcMesh{} : from.meshes()[source]);
-  const std::vector<chain::Stretch> before = chain::stretches(from.topology()),
-                                    now = chain::stretches(next.topology);
+  const std::vector<chain::Stretch>&before = from.topology().stretches, &now = next.topology.stretches;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     if (meshes[i].nodes.size() > elements && before[next.source[i]] == now[i]) continue;
     // Was a closed form, or a smooth line of several turns.
@@ -160,8 +159,7 @@ std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const 
     Entry exact = guess;
     const bool vanishes =
         event.kind == Kind::length || (event.kind == Kind::curvature && next.opened.empty());
-    const auto found =
-        vanishes && !next.passes_mid ? locate_from_beyond(exact, event.s + 0.5 * least_length) : std::nullopt;
+    const auto found = vanishes ? locate_from_beyond(exact, event.s + 0.5 * least_length) : std::nullopt;
     if (found && holds(exact)) {
       precision = *found;
       return exact;
@@ -210,7 +208,6 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
     transition.after = found->problem->topology().text();
     transition.state = found->x;
     if (found->p != p || transition.precision >= 0.0) transition.p = found->p;
-    transition.silent = next.passes_mid;
     return transition;
   }
   return first;

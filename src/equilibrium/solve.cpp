@@ -35,7 +35,7 @@ Solution finish(Started& started, const std::string& reason) {
   return solution;
 }
 
-bool symmetric(const scene::Scene& scene) { return scene.model.symmetry != scene::Symmetry::none; }
+bool symmetric(const scene::Scene& scene) { return scene.half_turn(); }
 
 /// Number of unstable directions of a planar state in space.
 int spatial_index(Started& planar) {

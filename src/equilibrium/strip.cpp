@@ -1,47 +1,31 @@
 #include "strip.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace windlass::equilibrium {
 
 using chain::Stretch;
 
 Strip::Strip(const chain::Topology& topology, const std::vector<double>& places)
-    : s(places),
-      half(topology.half),
-      mid_touch(topology.mid_touch),
-      marker(static_cast<int>(topology.left.size())) {
-  for (const Stretch kind : chain::stretches(topology))
-    parts.push_back({kind, static_cast<int>(parts.size())});
+    : s(places), half(topology.half), mid_touch(topology.mid_touch) {
+  for (const Stretch kind : topology.stretches) parts.push_back({kind, static_cast<int>(parts.size())});
 }
 
 Successor Strip::successor() const {
   Successor out;
   out.s = s;
-  std::vector<Stretch> kinds;
-  for (const Part& part : parts) {
-    if (part.fresh) out.opened.push_back(static_cast<int>(kinds.size()));
-    kinds.push_back(part.kind);
-    out.source.push_back(part.source);
-  }
-  out.passes_mid = passes_mid;
   out.topology.half = half;
   out.topology.mid_touch = mid_touch;
-  out.topology.right.assign(kinds.begin() + marker, kinds.end());
-  out.topology.left.assign(kinds.rend() - marker, kinds.rend());
+  for (const Part& part : parts) {
+    if (part.fresh) out.opened.push_back(static_cast<int>(out.topology.stretches.size()));
+    out.topology.stretches.push_back(part.kind);
+    out.source.push_back(part.source);
+  }
   out.nothing_left = !out.topology.contact();
   return out;
-}
-
-bool Strip::astride(Stretch kind) const {
-  return parts[marker].kind == kind && (half || parts[marker - 1].kind == kind);
 }
 
 void Strip::erase(int i, int bound) {
   parts.erase(parts.begin() + i);
   s.erase(s.begin() + bound);
-  if (!half && bound < marker) --marker;
 }
 
 void Strip::merge(int first, int last, Stretch kind) {
@@ -54,19 +38,13 @@ void Strip::split(int i, double at, Stretch left, Stretch right) {
   parts[i].kind = left;
   parts.insert(parts.begin() + i + 1, {right, old.source});
   s.insert(s.begin() + i + 1, at);
-  if (!half && marker > i) ++marker;
 }
 
 bool Strip::collapse(int i) {
-  const bool starts = starts_at_mid(i), ends = ends_at_mid(i);
-  if (!mid_touch && astride(parts[i].kind) && (starts || ends)) {
-    const int other = starts ? i - 1 : i + 1;
-    const bool one = !half && one_side_ends(s[i + 1] - s[i], s[other + 1] - s[other]);
-    return one ? pass_mid(i) : collapse_about_mid();
-  }
-  if (mid_touch && (starts || ends)) {  // a touch meets the one at the mid-point
-    erase(i, starts ? i + 1 : i);
-    mid_touch = !astride(Stretch::line);
+  if (starts_at_mid(i)) {
+    if (!mid_touch) return collapse_about_mid();
+    erase(i, i + 1);  // a touch meets the one at the mid-point
+    mid_touch = parts[i].kind != Stretch::line;
     return true;
   }
   if (i == 0 || i + 1 == static_cast<int>(parts.size())) return false;
@@ -85,27 +63,10 @@ bool Strip::collapse(int i) {
   return true;
 }
 
-bool Strip::pass_mid(int i) {
-  const bool on_right = i == marker;
-  const int next = on_right ? i + 1 : i - 1;
-  if (parts[next].kind == Stretch::tail) return false;
-  parts[i].kind = parts[next].kind;
-  parts[i].source = parts[next].source;
-  const double bound = std::max(std::abs(s[on_right ? i + 1 : i]), past_mid);
-  s[i] = on_right ? -bound : 0.0;
-  s[i + 1] = on_right ? 0.0 : bound;
-  marker = on_right ? i + 1 : i;
-  passes_mid = true;
-  return true;
-}
-
 bool Strip::collapse_about_mid() {
-  erase(marker, marker + 1);
-  if (!half) erase(marker - 1, marker - 1);
-  const bool line_after = parts[marker].kind == Stretch::line;
-  if (!half && line_after != (parts[marker - 1].kind == Stretch::line)) return false;
-  mid_touch =
-      !line_after;  // between lines a gap has closed; else a line, or a gap between touches, leaves one
+  erase(0, 1);
+  // Between lines a gap has closed; else a line, or a gap between touches, leaves one touch.
+  mid_touch = parts[0].kind != Stretch::line;
   return true;
 }
 

@@ -15,18 +15,14 @@ struct Strip {
     bool fresh = false;  ///< has no length at the event itself
   };
   std::vector<Part> parts;
-  std::vector<double> s;  ///< bounds of the parts
-  bool half = true, mid_touch = false;
-  bool passes_mid = false;  ///< see Successor
-  int marker = 0;           ///< bound at the mid-point
+  std::vector<double> s;                ///< bounds of the parts
+  bool half = true, mid_touch = false;  ///< see chain::Topology
 
   Strip(const chain::Topology& topology, const std::vector<double>& places);
   Successor successor() const;
 
-  bool starts_at_mid(int part) const { return part == marker; }
-  bool ends_at_mid(int part) const { return !half && part + 1 == marker; }
-  /// Is there a part of this kind on both sides of the mid-point (in a half chain: beside it)?
-  bool astride(chain::Stretch kind) const;
+  /// Does a part of a half chain begin at its mid-point?
+  bool starts_at_mid(int part) const { return half && part == 0; }
 
   /// Takes out part i and one of its bounds.
   void erase(int i, int bound);
@@ -34,14 +30,11 @@ struct Strip {
   void merge(int first, int last, chain::Stretch kind);
   /// Splits part i at s into (i, left) and (i + 1, right).
   void split(int i, double at, chain::Stretch left, chain::Stretch right);
-  /// Takes out part i, which has no length left, about the mid-point both halves of it: what met at its two ends meets
-  /// now. @returns false for an end of the rod
+  /// Takes out part i, which has no length left: what met at its two ends meets now. @returns false for an end of the rod
   bool collapse(int i);
 
  private:
   bool collapse_about_mid();
-  /// The bound of part i, which has run out beside the mid-point, goes over to the other side of it.
-  bool pass_mid(int i);
 };
 
 }  // namespace windlass::equilibrium

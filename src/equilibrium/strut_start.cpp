@@ -1,8 +1,8 @@
+#include <algorithm>
 #include <cmath>
 
 #include "attempt.hpp"
 #include "windlass/chain/ring.hpp"
-#include "windlass/scene/error.hpp"
 
 namespace windlass::equilibrium {
 
@@ -14,8 +14,10 @@ namespace {
 /// A strut's half chain near a given shape; nullopt where Newton does not converge.
 std::optional<Started> strut_near(const scene::Scene& scene, const chain::Profile& shape, double thrust,
                                   const std::vector<std::string>& keys) {
-  constexpr int elements = 8;  // with order 12 the straight strut's buckling loads are exact to 1e-13
-  const Topology topology{{Stretch::tail}, {}, true, false};
+  // With order 12 and elements that turn by less than a radian the straight strut's buckling loads and the moment of
+  // any number of turns are exact to 1e-13.
+  const int elements = std::max(8, static_cast<int>(std::ceil(0.5 * std::abs(scene.ends.twist))));
+  const Topology topology{{Stretch::tail}, true, false};
   const std::vector<ArcMesh> meshes{{chain::uniform_mesh(elements), start_stages}};
   auto problem = std::make_shared<RodProblem>(scene, true, topology, meshes, keys);
   const double half_length = loads_of(scene).half_length;
@@ -65,25 +67,37 @@ Started straight_strut(const scene::Scene& scene, bool half, const std::vector<s
   return *start;
 }
 
-/// At a given shortening: followed from the bowed strut. A strut twisted by a full turn or so may not get there, since
-/// its ends come together only once the twist has gone into a loop; it is then followed from the ring.
+/// At a given shortening: the untwisted strut, followed from the bowed one, then twisted. Rods may pass through
+/// themselves, so that a twist of two turns more or less has the same states; the one that is asked for is that of this
+/// twist, reached by turning the ends.
 Started buckled_strut(const scene::Scene& scene, bool half, const std::vector<std::string>& keys) {
   const double goal = *scene.ends.shortening;
-  if (!(goal > 0.0))
-    throw scene::SceneError(
-        "ends.shortening = 0: a straight inextensible strut carries any thrust up to buckling; give "
-        "load.thrust, or a shortening above 0");
+  if (!(goal >
+        0.0)) {  // straight: an inextensible rod carries any thrust up to buckling, and none is what it needs
+    scene::Scene straight = scene;
+    straight.ends.shortening.reset();
+    straight.load.thrust = 0.0;
+    return straight_strut(straight, half, keys);
+  }
+  scene::Scene untwisted = scene;
+  untwisted.ends.twist = 0.0;
   std::string failure = "Newton did not converge near the straight one";
-  const auto reached = [&](std::optional<Started> from) -> std::optional<Started> {
-    if (!from) return std::nullopt;
+  // Ends that meet carry the ring, whose twist has gone into its loop; the figure of eight is another state.
+  if (goal == 1.0 && scene.ends.twist != 0.0)
+    if (auto ring = looped_strut(scene)) {
+      ring->x = ring->problem->refine(ring->x, ring->p);
+      if (const auto found = reach(*ring, scene, goal, half, keys, failure)) return *found;
+    }
+  if (auto from = bowed_strut(untwisted)) {
     from->x = from->problem->refine(from->x, from->p);
-    return reach(*from, scene, goal, half, keys, failure);
-  };
-  if (auto bowed = reached(bowed_strut(scene))) return *bowed;
-  if (std::abs(scene.ends.twist) > M_PI)
-    if (auto looped = reached(looped_strut(scene))) return *looped;
-  throw NoEquilibrium("the buckled strut was not found at shortening " + std::to_string(goal) + ": " +
-                      failure);
+    const bool turns = scene.ends.twist != 0.0;
+    const std::vector<std::string> by_twist{"ends.twist"};
+    auto found = reach(*from, untwisted, goal, turns || half, turns ? by_twist : keys, failure);
+    if (found && turns) found = reach(*found, scene, scene.ends.twist, half, keys, failure);
+    if (found) return *found;
+  }
+  throw NoEquilibrium("the buckled strut was not found at shortening " + std::to_string(goal) + ", twist " +
+                      std::to_string(scene.ends.twist) + ": " + failure);
 }
 
 }  // namespace windlass::equilibrium

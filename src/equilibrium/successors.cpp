@@ -49,15 +49,13 @@ std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& st
   std::vector<Successor> out;
   const int i = event.place;
   const double begin = strip.s[i], end = strip.s[i + 1], length = end - begin;
-  const bool starts_at_mid = strip.starts_at_mid(i), ends_at_mid = strip.ends_at_mid(i);
-  const int twin = strip.half ? i : starts_at_mid ? i - 1 : ends_at_mid ? i + 1 : i;
-  Strip open = strip;  // the whole line lifts at once, on both sides of a full chain's mid-point
-  open.parts[i].kind = open.parts[twin].kind = Stretch::gap;
+  Strip open = strip;  // the whole line lifts at once
+  open.parts[i].kind = Stretch::gap;
   if (line.p.maxCoeff() - line.p.minCoeff() < 1e-6) return {open.successor()};
   const auto [low, high] = suction(line, event.s);
   const double width = high - low, near = 0.02 * length;
   const bool at_start = low<begin + near, at_end = high> end - near;
-  const bool at_mid = (at_start && starts_at_mid) || (at_end && ends_at_mid);
+  const bool at_mid = at_start && strip.starts_at_mid(i);
   const auto cut = [&](Strip part, int link, double from, double to) {  // a gap [from, to] inside a link
     const bool before = from > part.s[link], after = to < part.s[link + 1];
     if (after) part.split(link, to, Stretch::gap, Stretch::line);
@@ -66,12 +64,8 @@ std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& st
     return part;
   };
   if (at_mid) {
-    for (const double size : gap_lengths(2.0 * width, std::sqrt(5.0), 0.3, 1.8 * length)) {
-      const int right = ends_at_mid ? i + 1 : i;
-      Strip inner = cut(strip, right, strip.s[right], strip.s[right] + 0.5 * size);
-      if (twin != i) inner = cut(inner, right - 1, strip.s[right] - 0.5 * size, strip.s[right]);
-      out.push_back(inner.successor());
-    }
+    for (const double size : gap_lengths(2.0 * width, std::sqrt(5.0), 0.3, 1.8 * length))
+      out.push_back(cut(strip, i, begin, begin + 0.5 * size).successor());
   } else if (at_start ||
              at_end) {  // the edge's point force stays: a touch, with a gap between it and the line
     for (const double size : gap_lengths(width, 5.0 / 3.0, 0.05, 0.9 * length))
@@ -88,7 +82,7 @@ std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& st
 
 /// A line that has this length or less at an event shrinks to nothing there.
 bool vanishes(const Strip& strip, int link) {
-  constexpr double vanished = 3.0 * least_length;  // one across the mid-point is seen when twice as long
+  constexpr double vanished = 3.0 * least_length;
   return link >= 0 && link < static_cast<int>(strip.parts.size()) &&
          strip.parts[link].kind == Stretch::line && std::abs(strip.s[link + 1] - strip.s[link]) < vanished;
 }
@@ -98,10 +92,8 @@ std::vector<Successor> after_length(int link, const Strip& strip) {
   // In long helices lines shrink to nothing together, at distances that differ by less than rounding.
   Strip together = strip;
   int count = 0;
-  for (int i = static_cast<int>(strip.parts.size()); i-- > 0;) {
-    if (strip.ends_at_mid(i) && vanishes(strip, i + 1)) continue;  // went with its twin across the mid-point
+  for (int i = static_cast<int>(strip.parts.size()); i-- > 0;)
     if (i == link || vanishes(strip, i)) count += together.collapse(i);
-  }
   if (count > 1) out.push_back(together.successor());
   Strip alone = strip;
   if (alone.collapse(link)) out.push_back(alone.successor());
@@ -111,7 +103,7 @@ std::vector<Successor> after_length(int link, const Strip& strip) {
 std::vector<Successor> after_force(const ContactEvent& event, Strip strip, const Profile& profile,
                                    const Topology& topology) {
   const int j = event.place;
-  if (strip.mid_touch && j == strip.marker) {
+  if (strip.mid_touch && j == 0) {
     strip.mid_touch = false;
     return {strip.successor()};
   }
@@ -129,12 +121,10 @@ std::vector<Successor> after_force(const ContactEvent& event, Strip strip, const
 Successor widened(const Strip& strip, int j, Stretch between, double length) {
   Strip wide = strip;
   const double begin = strip.s[j] - 0.5 * length, end = strip.s[j] + 0.5 * length;
-  if (strip.mid_touch && j == strip.marker) {
+  if (strip.mid_touch && j == 0) {
     wide.mid_touch = false;
-    if (!strip.half) wide.split(j - 1, begin, strip.parts[j - 1].kind, between);
-    wide.split(wide.marker, end, between, strip.parts[j].kind);
-    wide.parts[wide.marker].fresh = true;
-    if (!strip.half) wide.parts[wide.marker - 1].fresh = true;
+    wide.split(0, end, between, strip.parts[0].kind);
+    wide.parts[0].fresh = true;
   } else {
     wide.split(j, end, between, strip.parts[j].kind);
     wide.s[j] = begin;
@@ -186,7 +176,7 @@ std::vector<Successor> after_graze(const ContactEvent& event, Strip strip) {
   return {strip.successor()};
 }
 
-/// Candidates for what follows the event, the other half of a full chain left as it is.
+/// Candidates for what follows the event, the other half of a symmetric full chain left as it is.
 std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profile, const Topology& topology,
                                  const std::vector<double>& s) {
   const Strip strip(topology, s);
@@ -209,40 +199,50 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
   return {};
 }
 
-/// The same with the change made on both sides: the half that changed and its mirror image.
+/// The same with the change made on both sides of s = 0: the side that changed and its mirror image.
 /// @param links  of the old chain
-Successor both_sided(const Successor& next, bool right_changed, int links) {
-  const auto marker = static_cast<int>(next.topology.left.size());
-  Successor out = next;
-  out.topology.left = out.topology.right = right_changed ? next.topology.right : next.topology.left;
-  const auto half = static_cast<int>(out.topology.right.size());
-  const auto kept = [&](int k) {
-    return right_changed ? marker + k : marker - 1 - k;
-  };  // k from the mid-point
-  out.s.assign(2 * half + 1, 0.0);
-  out.source.assign(2 * half, 0);
-  out.opened.clear();
-  for (int k = 0; k < half; ++k) {
-    out.s[half + 1 + k] = std::abs(next.s[right_changed ? marker + k + 1 : marker - 1 - k]);
-    out.s[half - 1 - k] = -out.s[half + 1 + k];
-    const int source = next.source[kept(k)], image = links - 1 - source;
-    out.source[half + k] = right_changed ? source : image;
-    out.source[half - 1 - k] = right_changed ? image : source;
-    if (std::find(next.opened.begin(), next.opened.end(), kept(k)) == next.opened.end()) continue;
-    out.opened.push_back(half + k);
-    out.opened.push_back(half - 1 - k);
+Successor mirrored(const Successor& next, bool right_changed, int links) {
+  // Bounds and stretches of the side that changed, from the middle outward.
+  const int count = static_cast<int>(next.topology.stretches.size());
+  const auto bound = [&](int k) { return right_changed ? next.s[k] : -next.s[count - k]; };
+  const auto link = [&](int k) { return right_changed ? k : count - 1 - k; };
+  constexpr double middle = 1e-9;
+  int first = 0;  // first bound beyond the middle
+  while (bound(first) <= middle) ++first;
+  const bool touches = first > 1 && std::abs(bound(first - 1)) <= middle;  // at the middle itself
+  Successor out;
+  out.topology.half = false;
+  const auto add = [&](int k, bool image) {
+    const int source = next.source[link(k)], same = right_changed ? source : links - 1 - source;
+    const bool fresh = std::find(next.opened.begin(), next.opened.end(), link(k)) != next.opened.end();
+    if (fresh) out.opened.push_back(static_cast<int>(out.topology.stretches.size()));
+    out.topology.stretches.push_back(next.topology.stretches[link(k)]);
+    out.source.push_back(image ? links - 1 - same : same);
+  };
+  for (int k = count; k-- > first;) add(k, true);
+  for (int k = count; k >= first; --k) out.s.push_back(-bound(k));
+  if (touches) {
+    add(first - 1, true);
+    out.s.push_back(0.0);
   }
+  for (int k = first - 1; k < count; ++k) add(k, false);
+  for (int k = first; k <= count; ++k) out.s.push_back(bound(k));
   out.nothing_left = !out.topology.contact();
   return out;
 }
 
 bool symmetric(const Topology& topology, const std::vector<double>& s) {
   constexpr double same = 1e-6;
-  if (topology.half || topology.left != topology.right) return false;
+  if (topology.half ||
+      !std::equal(topology.stretches.begin(), topology.stretches.end(), topology.stretches.rbegin()))
+    return false;
   for (std::size_t j = 0; j < s.size(); ++j)
     if (!(std::abs(s[j] + s[s.size() - 1 - j]) < same)) return false;
   return true;
 }
+
+/// Is it its own mirror image?
+bool is_symmetric(const Successor& next) { return symmetric(next.topology, next.s); }
 
 }  // namespace
 
@@ -251,9 +251,8 @@ std::vector<Successor> successors(const ContactEvent& event, const Profile& prof
   std::vector<Successor> out;
   for (Successor& next : one_sided(event, profile, topology, s)) {
     // Of a symmetric state mirror images go together.
-    const bool right = next.topology.right != topology.right, left = next.topology.left != topology.left;
-    if (right != left && symmetric(topology, s))
-      out.push_back(both_sided(next, right, static_cast<int>(profile.pieces.size())));
+    if (symmetric(topology, s) && !is_symmetric(next))
+      out.push_back(mirrored(next, event.s > 0.0, static_cast<int>(profile.pieces.size())));
     out.push_back(std::move(next));
   }
   return out;

@@ -25,8 +25,8 @@ ArcMesh meshed_tail(const contact::Loads& loads, double length, bool leftward) {
 void choose_tails(std::vector<ArcMesh>& meshes, const Topology& topology, const chain::RodKind& rod,
                   const contact::Loads& loads, const std::vector<double>& s) {
   constexpr int gap_elements = 8;
-  const std::vector<Stretch> kinds = chain::stretches(topology);
-  const bool admitted = !rod.clamped && !rod.strut && !rod.infinite && rod.isotropic_straight();
+  const std::vector<Stretch>& kinds = topology.stretches;
+  const bool admitted = !rod.clamped() && !rod.strut && !rod.infinite && rod.isotropic_straight();
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     const bool leftward = i == 0 && !topology.half, tail = kinds[i] == Stretch::tail;
     const bool leaves_line = tail && kinds.size() > 1 && kinds[leftward ? 1 : i - 1] == Stretch::line;

@@ -8,27 +8,41 @@ using chain::ArcMesh;
 using chain::Stretch;
 using contact::Loads;
 
+ArcMesh reversed(const ArcMesh& mesh) {
+  ArcMesh out{{}, mesh.stages};
+  for (auto node = mesh.nodes.rbegin(); node != mesh.nodes.rend(); ++node) out.nodes.push_back(1.0 - *node);
+  return out;
+}
+
+ArcMesh spanning(const ArcMesh& right) {
+  ArcMesh out{{}, right.stages};
+  for (const double node : reversed(right).nodes) out.nodes.push_back(0.5 * node);
+  for (std::size_t k = 1; k < right.nodes.size(); ++k) out.nodes.push_back(0.5 + 0.5 * right.nodes[k]);
+  return out;
+}
+
 Started unfold(RodProblem& halved, const Vector& x, const Vector& p, int iterations) {
   // Through the recorded whole rod: sample the half, mirror it, and build the full chain on it.
   const chain::Profile half = halved.profile(x, p);
   const chain::Profile whole = chain::mirrored(half);
-  Topology topology = halved.topology();
-  topology.half = false;
-  topology.left = topology.right;
-  std::vector<ArcMesh> meshes = halved.meshes();
-  for (auto& mesh : meshes) {
-    std::vector<double> nodes;
-    for (auto node = mesh.nodes.rbegin(); node != mesh.nodes.rend(); ++node) nodes.push_back(1.0 - *node);
-    mesh.nodes = nodes;
+  const Topology topology = chain::unfolded(halved.topology());
+  const bool spanned = !halved.topology().mid_touch;  // the first stretch spans both halves
+  std::vector<ArcMesh> meshes;
+  for (auto mesh = halved.meshes().rbegin(); mesh != halved.meshes().rend(); ++mesh)
+    meshes.push_back(reversed(*mesh));
+  std::size_t first = 0;
+  if (spanned) {
+    meshes.back() = spanning(halved.meshes().front());
+    first = 1;
   }
-  std::reverse(meshes.begin(), meshes.end());
-  meshes.insert(meshes.end(), halved.meshes().begin(), halved.meshes().end());
+  meshes.insert(meshes.end(), halved.meshes().begin() + static_cast<std::ptrdiff_t>(first),
+                halved.meshes().end());
   auto problem =
       std::make_shared<RodProblem>(halved.scene_at(p), halved.spatial(), topology, meshes, halved.keys());
   const std::vector<double> right = halved.joint_places(x, p, half);
   std::vector<double> s;
   for (std::size_t j = right.size(); j-- > 1;) s.push_back(-right[j]);
-  s.insert(s.end(), right.begin(), right.end());
+  s.insert(s.end(), right.begin() + (spanned ? 1 : 0), right.end());
   Vector y = chain::guess_state(problem->chain(), topology, problem->rod(), whole, s);
   const int used = problem->polish(y, p);
   if (used < 0) throw NoEquilibrium("Newton did not converge on the full chain from its symmetric half");
@@ -39,7 +53,7 @@ Started unfold(RodProblem& halved, const Vector& x, const Vector& p, int iterati
 Started lift(RodProblem& planar, const Vector& x, const Vector& p, bool half) {
   const chain::Profile shape = planar.profile(x, p);
   std::vector<ArcMesh> meshes = planar.meshes();
-  const std::vector<Stretch> kinds = chain::stretches(planar.topology());
+  const std::vector<Stretch>& kinds = planar.topology().stretches;
   const Loads loads = planar.loads(p);
   const std::vector<double> s = planar.joint_places(x, p, shape);
   for (std::size_t i = 0; i < kinds.size(); ++i)

@@ -85,16 +85,18 @@ Table samples_table(PointColumns::Samples& s) {
 }
 
 Table joints_table(PointColumns::Joints& j) {
-  return {"joints",
-          "places where arcs meet, in order of s: arc k lies between joints k and k+1 of its point",
-          {{"kind", "", "end | touch | edge | held | infinity", &j.kind},
-           {"s", "rho", "material arclength", &j.s},
-           {"angle", "rad", "place round the axis, unrolled, 0 at the south pole", &j.angle},
-           {"z", "rho", "height", &j.z},
-           {"force", "EI/rho^2", "size of the contact point force", &j.force},
-           {"holding", "EI/rho^2", "force along the rod that holds the mid-point of an asymmetric rod",
-            &j.holding},
-           {"r", "rho", "position x, y, z", &j.r, 3}}};
+  return {
+      "joints",
+      "places where arcs meet, in order of s: arc k lies between joints k and k+1 of its point",
+      {{"kind", "", "end | touch | edge | infinity", &j.kind},
+       {"s", "rho", "material arclength", &j.s},
+       {"angle", "rad", "place round the axis, unrolled, 0 at the south pole", &j.angle},
+       {"z", "rho", "height", &j.z},
+       {"force", "EI/rho^2", "size of the contact point force", &j.force},
+       {"holding", "EI/rho^2",
+        "force round the cylinder that holds the rod against sliding along itself, zero at an equilibrium",
+        &j.holding},
+       {"r", "rho", "position x, y, z", &j.r, 3}}};
 }
 
 }  // namespace

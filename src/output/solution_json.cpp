@@ -22,7 +22,6 @@ namespace {
 constexpr std::pair<JointKind, const char*> joint_names[] = {{JointKind::end, "end"},
                                                              {JointKind::touch, "touch"},
                                                              {JointKind::edge, "edge"},
-                                                             {JointKind::held, "held"},
                                                              {JointKind::infinity, "infinity"}};
 }  // namespace
 
@@ -72,6 +71,7 @@ ordered_json stability_json(const Solution& solution) {
   for (const double value : solution.stability->eigenvalues)
     json["eigenvalues"].push_back(finite_or_null(value));
   json["degenerate"] = solution.stability->degenerate;
+  json["sliding"] = solution.stability->sliding;
   return json;
 }
 

@@ -57,17 +57,18 @@ double half_length(const scene::Scene& scene) {
 }
 
 /// Meshes and joints of a whole rod from those of its right half.
-void unfold(std::vector<ArcMesh>& meshes, std::vector<double>& s) {
-  std::vector<ArcMesh> left = meshes;
-  for (ArcMesh& mesh : left) {
-    std::reverse(mesh.nodes.begin(), mesh.nodes.end());
-    for (double& node : mesh.nodes) node = 1.0 - node;
-  }
-  std::reverse(left.begin(), left.end());
-  meshes.insert(meshes.begin(), left.begin(), left.end());
+/// The whole rod of a symmetric half: topology, meshes and places.
+void unfold(chain::Topology& topology, std::vector<ArcMesh>& meshes, std::vector<double>& s) {
+  const std::size_t spanned = topology.mid_touch ? 0 : 1;  // the first stretch spans both halves
+  std::vector<ArcMesh> all;
+  for (std::size_t i = meshes.size(); i-- > spanned;) all.push_back(equilibrium::reversed(meshes[i]));
+  if (spanned == 1) all.push_back(equilibrium::spanning(meshes[0]));
+  all.insert(all.end(), meshes.begin() + static_cast<std::ptrdiff_t>(spanned), meshes.end());
   std::vector<double> whole;
-  for (auto at = s.rbegin(); *at != s.front(); ++at) whole.push_back(-*at);
-  whole.insert(whole.end(), s.begin(), s.end());
+  for (std::size_t j = s.size(); j-- > 1;) whole.push_back(-s[j]);
+  whole.insert(whole.end(), s.begin() + static_cast<std::ptrdiff_t>(spanned), s.end());
+  topology = chain::unfolded(topology);
+  meshes = all;
   s = whole;
 }
 
@@ -112,7 +113,7 @@ Reference make_reference(const scene::Scene& scene) {
   if (problem.polish(x, start.p) < 0) throw equilibrium::NoEquilibrium("the reference did not converge");
   out.value = quantities_of(problem, x, start.p);
   out.unknowns = static_cast<int>(problem.size());
-  if (out.flat && closed_form && out.topology.right.size() == 2) {
+  if (out.flat && closed_form && out.topology.stretches.size() == 2) {
     const double length = half_length(scene);
     out.guess = chain::capstan_profile(scene.load.tension, scene.load.angle, length, 1.0);
     out.s = {0.0, rod::capstan::phi_star(scene.load.tension, scene.load.angle), length};
@@ -124,7 +125,7 @@ ArcSolver::ArcSolver(const Reference& reference, bool spatial, bool half, int el
     : reference_(reference), spatial_(spatial), half_(half) {
   std::vector<ArcMesh> meshes = reference.meshes;
   if (!spatial) {  // a planar line contact is a formula and takes no elements
-    const std::vector<Stretch> kinds = chain::stretches(reference.topology);
+    const std::vector<Stretch>& kinds = reference.topology.stretches;
     for (std::size_t i = 0; i < kinds.size(); ++i)
       if (kinds[i] == Stretch::line) meshes[i] = ArcMesh{};
   }
@@ -138,9 +139,7 @@ bool ArcSolver::solve() {
   chain::Profile guess = reference_.guess;
   if (!half_) {
     guess = chain::mirrored(guess);
-    topology.half = false;
-    topology.left = topology.right;
-    unfold(meshes, s);
+    unfold(topology, meshes, s);
   }
   problem_ = std::make_shared<RodProblem>(reference_.scene, spatial_, topology, meshes, keys);
   p_ = problem_->parameters();

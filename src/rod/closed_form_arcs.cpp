@@ -11,7 +11,7 @@ using bvp::EndsVector;
 
 void PlanarLineArc::gradient(const ArcPoint& at, double*, EndsVector& ends) const {
   ends.resize(2);
-  ends << -at.length, 0.5 * stiffness_ - at.n[0];
+  ends << -at.length, 0.5 * stiffness_ * strain_ * strain_ - at.n[0];
 }
 
 void PlanarLineArc::factor(const ArcPoint&, EndsMatrix& condensed) {

@@ -47,7 +47,30 @@ void set_word(Scene& scene, const std::string& word) {
   scene.*Part.*Member = static_cast<Enum>(found - std::begin(Words));
 }
 
-constexpr std::string_view end_words[] = {"moment_free", "clamped"};
+constexpr std::string_view end_words[] = {"moment_free", "clamped", "pinned"};
+
+/// One end's kind; no text where it is that of `ends.kind`.
+template <auto Member>
+std::string get_end(const Scene& scene) {
+  const std::optional<EndKind>& end = scene.ends.*Member;
+  return end ? std::string(end_words[static_cast<std::size_t>(*end)]) : "";
+}
+template <auto Member>
+void set_end(Scene& scene, const std::string& word) {
+  const auto found = std::find(std::begin(end_words), std::end(end_words), word);
+  scene.ends.*Member = static_cast<EndKind>(found - std::begin(end_words));
+}
+template <auto Member>
+Key end_of_rod(std::string_view name, std::string_view help) {
+  return {.name = name,
+          .kind = ValueKind::text,
+          .range = any,
+          .choices = {std::begin(end_words), std::end(end_words)},
+          .help = help,
+          .get_text = get_end<Member>,
+          .set_text = set_end<Member>};
+}
+
 constexpr std::string_view model_words[] = {"auto", "closed_form", "planar", "kirchhoff"};
 constexpr std::string_view symmetry_words[] = {"auto", "half_turn", "none"};
 
@@ -124,17 +147,19 @@ std::vector<Key> rod_keys() {
       parameter<&Scene::rod, &Rod::length>("rod.length", Dimension::length, length,
                                            "whole length, or \"inf\" (closed-form tails)"),
       radius,
-      parameter<&Scene::rod, &Rod::bending_stiffness>("rod.bending_stiffness", Dimension::stiffness, positive,
-                                                      "EI; the unit of stiffness"),
+      parameter<&Scene::rod, &Rod::bending_stiffness>(
+          "rod.bending_stiffness", Dimension::stiffness, positive,
+          "EI of bending in the plane of the flat rod (the plane of the pulls); the unit of stiffness"),
       parameter<&Scene::rod, &Rod::bending_stiffness_2>(
           "rod.bending_stiffness_2", Dimension::stiffness, positive,
-          "EI about the other axis; default: that of bending_stiffness"),
+          "EI of bending out of the plane of the flat rod; default: that of bending_stiffness"),
       derived("rod.youngs_modulus", Dimension::modulus, positive,
               "E; with rod.radius it gives EI = E pi r^4/4"),
       derived("rod.poisson_ratio", Dimension::none, poisson, "nu; gives twist_ratio = 1/(1 + nu)"),
       parameter<&Scene::rod, &Rod::twist_ratio>("rod.twist_ratio", Dimension::none, positive, "GJ/EI"),
-      parameter<&Scene::rod, &Rod::natural_curvature>("rod.natural_curvature", Dimension::curvature, any,
-                                                      "curvature of the unloaded rod"),
+      parameter<&Scene::rod, &Rod::natural_curvature>(
+          "rod.natural_curvature", Dimension::curvature, any,
+          "curvature of the unloaded rod in the plane of the flat rod; > 0 bends it round the cylinder"),
       parameter<&Scene::rod, &Rod::natural_twist>("rod.natural_twist", Dimension::curvature, any,
                                                   "twist of the unloaded rod, rad per length"),
   };
@@ -157,7 +182,10 @@ std::vector<Key> load_keys() {
                                             "capstan angle phi between the pulls (with a cylinder)"),
       parameter<&Scene::load, &Load::thrust>("load.thrust", Dimension::force, any,
                                              "compressive end force of a strut"),
-      word<&Scene::ends, &Ends::kind, end_words>("ends.kind", "what holds the ends"),
+      word<&Scene::ends, &Ends::kind, end_words>("ends.kind",
+                                                 "what holds the ends; pinned: rods without a cylinder"),
+      end_of_rod<&Ends::left>("ends.left", "what holds the end at s = -L/2; default: ends.kind"),
+      end_of_rod<&Ends::right>("ends.right", "what holds the end at s = L/2; default: ends.kind"),
       parameter<&Scene::ends, &Ends::shortening>("ends.shortening", Dimension::none,
                                                  {.low = 0.0, .high = 2.0, .open_high = true},
                                                  "approach of a strut's ends, fraction of the length"),

@@ -82,7 +82,10 @@ std::string Key::default_text() const {
   for (const char* none :
        {"name", "rod.length", "load.tension", "load.angle", "continuation.from", "continuation.to"})
     if (name == none) return "";
-  if (get_text) return nlohmann::json(get_text(defaults)).dump();
+  if (get_text) {
+    const std::string text = get_text(defaults);
+    return text.empty() ? "" : nlohmann::json(text).dump();
+  }
   const std::optional<double> value = get ? get(defaults) : std::nullopt;
   return value ? number_text(*value) : "";
 }

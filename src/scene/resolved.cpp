@@ -30,7 +30,7 @@ std::string to_toml(const Scene& scene) {
   for (const Key& key : keys()) {
     if (!applies(scene, key)) continue;
     std::string value;
-    if (key.get_text) value = quoted(key.get_text(scene));
+    if (const std::string text = key.get_text ? key.get_text(scene) : ""; !text.empty()) value = quoted(text);
     if (const auto number = key.get ? key.get(scene) : std::nullopt) value = number_text(*number);
     const bool opens =
         key.table() != table && (!value.empty() || (key.table() == "cylinder" && scene.has_cylinder));

@@ -18,7 +18,28 @@ bool starts_in(const Scene& scene, const std::string& key) {
   return scene.continuation && scene.continuation->parameter == key;
 }
 
+/// Where a symmetric half chain is asked for, the two ends must be alike.
+void check_ends(const Document& document, const Scene& scene) {
+  const bool unlike = scene.ends.left_kind() != scene.ends.right_kind();
+  if (unlike && scene.model.symmetry == Symmetry::half_turn)
+    forbid(document, "model.symmetry",
+           "must not be \"half_turn\": the two ends of the rod are held differently");
+  for (const char* key : {"ends.kind", "ends.left", "ends.right"}) {
+    const EndKind kind = key[5] == 'l'   ? scene.ends.left_kind()
+                         : key[5] == 'r' ? scene.ends.right_kind()
+                                         : scene.ends.kind;
+    if (scene.has_cylinder && kind == EndKind::pinned)
+      forbid(document, key,
+             "must be \"moment_free\" or \"clamped\" with [cylinder]: its pulls leave the ends free to move");
+  }
+}
+
 void check_capstan(const Document& document, const Scene& scene) {
+  if (scene.rod.infinite())
+    for (const char* key : {"rod.natural_curvature", "rod.natural_twist"})
+      if (find_key(key)->get(scene).value_or(0.0) != 0.0)
+        forbid(document, key,
+               "must be 0 with rod.length = \"inf\": an endless straight tail would store endless energy");
   for (const char* key : {"load.tension", "load.angle"})
     if (!document.find(key) && !starts_in(scene, key))
       throw missing(document, key, fmt::format("{} with [cylinder]", find_key(key)->allowed()));
@@ -95,6 +116,7 @@ void check_rules(const Document& document, const Scene& scene, bool restart) {
     check_capstan(document, scene);
   else
     check_strut(document, scene);
+  check_ends(document, scene);
   if (scene.continuation) check_continuation(document, scene, restart);
   for (const char c : {'/', '\0'})
     if (scene.name.find(c) != std::string::npos || scene.name.empty() || scene.name.front() == '.')

@@ -72,6 +72,7 @@ Stability analyse(RodProblem& given, const Vector& at_x, const Vector& p, int co
                   SpectrumSolver& solver) {
   Stability out;
   out.inertia_index = given.total_index(at_x, p);
+  out.sliding = given.sliding_stiffness(at_x, p);
   const auto meshed = equilibrium::with_meshed_tails(given, at_x, p);
   RodProblem& problem = meshed ? *meshed->problem : given;
   const Vector& x = meshed ? meshed->x : at_x;

@@ -13,13 +13,16 @@ namespace windlass::verify {
 class Largest {
  public:
   void add(double value) {
+    any_ = true;
     if (std::isnan(value_)) return;
     value_ = std::isnan(value) ? value : std::max(value_, value);
   }
   double value() const { return value_; }
+  bool any() const { return any_; }
 
  private:
   double value_ = 0.0;
+  bool any_ = false;
 };
 
 /// Smallest value seen, NaN kept; +infinity when there was none.

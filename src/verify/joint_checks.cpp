@@ -11,11 +11,12 @@ using equilibrium::JointRecord;
 using equilibrium::Solution;
 
 void check_joints(const Solution& solution, const scene::Scene&, const Scales& scales, CheckList& list) {
-  Largest position, frame, moment, force, surface, tangency;
+  Largest position, frame, moment, force, surface, tangency, holding;
   Smallest contact;
   for (std::size_t k = 0; k < solution.joints.size(); ++k) {
     const JointRecord& joint = solution.joints[k];
     const bool in_contact = joint.kind == JointKind::touch || joint.kind == JointKind::edge;
+    holding.add(std::abs(joint.holding) / scales.force);
     if (in_contact) contact.add(joint.force / scales.force);
     if (k == 0 || k + 1 == solution.joints.size()) continue;
     const Section before = last_section(solution.arcs[k - 1]), after = first_section(solution.arcs[k]);
@@ -38,6 +39,8 @@ void check_joints(const Solution& solution, const scene::Scene&, const Scales& s
   list.at_most("joint_moment", moment.value(), tight, "jump of m at joints, / max(1, sqrt(T))");
   list.at_most("joint_force", force.value(), tight,
                "jump of n plus contact and holding force at joints, / max(1, T)");
+  list.at_most("holding", holding.value(), tight,
+               "force that holds the rod against sliding along itself, / max(1, T): no equilibrium with it");
   if (!contact.any()) return;
   list.at_least("point_force", contact.value(), -tight, "smallest contact point force, / max(1, T)");
   list.at_most("contact_position", surface.value(), tight, "distance of touches and edges from the cylinder");
@@ -52,6 +55,7 @@ struct End {
   Section section;
   Vector3d pull;  // external force on the end
   double side;    // +1 at s = L/2, where n = pull; -1 at s = -L/2, where n = -pull
+  bool clamped;
 };
 
 /// The frame of a clamped end: tangent along the pull and no turn about it from the planar frame, d2 = -e_z.
@@ -61,42 +65,33 @@ double clamp_error(const End& end) {
   return std::max((d.col(2) - along).norm(), (d.col(1) + Vector3d::UnitZ()).norm());
 }
 
-void check_capstan_ends(const End (&ends)[2], const scene::Scene& scene, const Scales& scales,
-                        CheckList& list) {
+void check_capstan_ends(const End (&ends)[2], const Scales& scales, CheckList& list) {
   Largest pull, moment, clamp;
-  bool finite_end = false;
   for (const End& end : ends) {
     pull.add((end.side * end.section.n - end.pull).norm() / scales.force);
     if (end.joint.kind == JointKind::infinity) continue;
-    finite_end = true;
-    if (scene.ends.kind == scene::EndKind::moment_free) {
-      moment.add(end.section.m.norm() / scales.moment);
-    } else {
+    if (end.clamped)
       clamp.add(clamp_error(end));
-    }
+    else
+      moment.add(end.section.m.norm() / scales.moment);
   }
   list.at_most("end_pull", pull.value(), tight, "internal force at the ends against the pulls, / max(1, T)");
-  if (!finite_end) return;
-  if (scene.ends.kind == scene::EndKind::moment_free) {
+  if (moment.any())
     list.at_most("end_moment", moment.value(), tight, "moment at moment-free ends, / max(1, sqrt(T))");
-  } else {
+  if (clamp.any())
     list.at_most("end_clamp", clamp.value(), tight, "frame of clamped ends against the pull and the plane");
-  }
 }
 
-void check_strut_ends(const End (&ends)[2], const scene::Scene& scene, const Scales& scales,
-                      CheckList& list) {
-  Largest direction;
+void check_strut_ends(const End (&ends)[2], const Scales& scales, CheckList& list) {
+  Largest moment, clamp;
   for (const End& end : ends) {
-    if (scene.ends.kind == scene::EndKind::moment_free) {
-      direction.add(end.section.m.norm() / scales.moment);
-    } else {
-      direction.add((tangent(end.section) - Vector3d::UnitX()).norm());
-    }
+    if (end.clamped)
+      clamp.add((tangent(end.section) - Vector3d::UnitX()).norm());
+    else
+      moment.add(end.section.m.norm() / scales.moment);
   }
-  const bool pinned = scene.ends.kind == scene::EndKind::moment_free;
-  list.at_most(pinned ? "end_moment" : "end_clamp", direction.value(), tight,
-               pinned ? "moment at moment-free ends" : "tangent of clamped ends against e_x");
+  if (moment.any()) list.at_most("end_moment", moment.value(), tight, "moment at pinned ends");
+  if (clamp.any()) list.at_most("end_clamp", clamp.value(), tight, "tangent of clamped ends against e_x");
 }
 
 }  // namespace
@@ -104,13 +99,14 @@ void check_strut_ends(const End (&ends)[2], const scene::Scene& scene, const Sca
 void check_ends(const Solution& solution, const scene::Scene& scene, const Scales& scales, CheckList& list) {
   const Vector3d right(std::cos(solution.phi / 2), std::sin(solution.phi / 2), 0.0);
   const Vector3d left(-right.x(), right.y(), 0.0);
-  const End ends[2] = {
-      {solution.joints.front(), first_section(solution.arcs.front()), solution.T * left, -1.0},
-      {solution.joints.back(), last_section(solution.arcs.back()), solution.T * right, 1.0}};
+  const End ends[2] = {{solution.joints.front(), first_section(solution.arcs.front()), solution.T * left,
+                        -1.0, scene.ends.left_kind() == scene::EndKind::clamped},
+                       {solution.joints.back(), last_section(solution.arcs.back()), solution.T * right, 1.0,
+                        scene.ends.right_kind() == scene::EndKind::clamped}};
   if (solution.has_cylinder) {
-    check_capstan_ends(ends, scene, scales, list);
+    check_capstan_ends(ends, scales, list);
   } else {
-    check_strut_ends(ends, scene, scales, list);
+    check_strut_ends(ends, scales, list);
   }
 }
 

@@ -14,8 +14,8 @@ using Eigen::Vector3d;
 using Eigen::Vector4d;
 
 Stiffness::Stiffness(const scene::Rod& rod)
-    : K(rod.bending_stiffness, rod.bending_stiffness_2, rod.twist_ratio * rod.bending_stiffness),
-      u_hat(rod.natural_curvature, 0.0, rod.natural_twist) {}
+    : K(rod.bending_stiffness_2, rod.bending_stiffness, rod.twist_ratio * rod.bending_stiffness),
+      u_hat(0.0, -rod.natural_curvature, rod.natural_twist) {}
 
 Vector3d Stiffness::strain(const Section& section) const {
   return (rotation(section.q).transpose() * section.m).cwiseQuotient(K) + u_hat;

@@ -18,7 +18,7 @@ double total_force(bool spatial, int stages, int elements) {
   scene.load.tension = 1.0;
   scene.load.angle = 2.0 * M_PI;
   scene.rod.length = 2.0 * (rod::capstan::phi_star(1.0, 2 * M_PI) + 18.0);
-  const chain::Topology topology{{Stretch::line, Stretch::tail}, {}, true, false};
+  const chain::Topology topology{{Stretch::line, Stretch::tail}, true, false};
   const std::vector<chain::ArcMesh> meshes{{chain::uniform_mesh(4), stages},
                                            {chain::uniform_mesh(elements), stages}};
   equilibrium::RodProblem problem(scene, spatial, topology, meshes, {"load.tension"});
@@ -61,7 +61,7 @@ BOOST_AUTO_TEST_CASE(the_estimate_bounds_the_error) {
     scene.load.angle = 2.0 * M_PI;
     scene.rod.length = 2.0 * (rod::capstan::phi_star(0.9, 2 * M_PI) + 20.0);
     scene.model.tolerance = tolerance;
-    const chain::Topology topology{{Stretch::line, Stretch::tail}, {}, true, false};
+    const chain::Topology topology{{Stretch::line, Stretch::tail}, true, false};
     equilibrium::RodProblem problem(scene, false, topology, {{}, {chain::uniform_mesh(20), 4}},
                                     {"load.tension"});
     const double half = 0.5 * scene.rod.length, contact = rod::capstan::phi_star(0.9, 2 * M_PI);

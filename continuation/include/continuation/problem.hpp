@@ -101,6 +101,11 @@ class Problem {
   /// change.
   virtual std::optional<Vector> adapt(const Vector& x, const Vector& p);
 
+  /// Called on every solution the corrector found, at fixed p: moves x along directions too soft to be left to Newton's
+  /// method, to where nothing has to hold it. Returns whether x was moved; the default has no such directions.
+  /// @throws std::domain_error where there is no such place.
+  virtual bool settle(Vector& x, const Vector& p);
+
   /// Numbers that do not depend on discretisation, nor on which of two mirror images x is: two states with
   /// equal fingerprints are the same solution (up to mirror image). The default is x itself.
   virtual Vector fingerprint(const Vector& x, const Vector& p);

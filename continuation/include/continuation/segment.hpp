@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -64,6 +65,8 @@ class Segment {
   const Options& options() const { return options_; }
 
  private:
+  bool settled(Sample& sample);  ///< Problem::settle; false, with the reason in failure(), where it throws
+  bool tried(const std::function<void()>& step);
   Iterate guess(double s) const;
   Sample* finish(const Borders& borders, Iterate it, bool complete);
 

@@ -28,19 +28,36 @@ struct Link {
 
 /// Layout of a chain's unknowns.
 ///
-/// State x (ambient): for each joint its coordinates and, where it locates itself, its arclength s (where it is held, the
-/// force that holds it); for each link with unknown n that n; then the interior configurations of every arc. Increments
-/// dx follow the same order with tangent
-/// sizes. The first block (joints and forces, `dense_size()`) couples the arcs; the rest is condensed arc by arc.
+/// State x (ambient): for each joint its coordinates and, where it locates itself, its arclength s; where sliding is held,
+/// the place c and the holding force λ (Gauges); for each link with unknown n that n; then the interior configurations of
+/// every arc. Increments dx follow the same order with tangent sizes, less what gauges and symmetry keep (and c, which is
+/// given). The first block (joints and forces, `dense_size()`) couples the arcs; the rest is condensed arc by arc.
 ///
 /// Count of equations, the same as of unknowns: a joint gives one balance equation a coordinate and one location
-/// condition if it locates; a link with unknown n gives dim(n) closure equations X_b − X_a = ∫ d ds; an arc gives its
+/// condition if it locates; sliding gives its gauge for λ; a link with unknown n gives dim(n) closure equations X_b − X_a = ∫ d ds; an arc gives its
 /// interior collocation equations.
 class Chain {
  public:
+  /// Rigid motions that cost nothing, and what holds them. At an equilibrium nothing pulls along them, so that a coordinate
+  /// and its equation may be left out (translation, spin), or the motion's generator be added to the matrix (phase). In
+  /// variations, whose eigenvalues must not prefer one side, the mean spin of the outermost contacts is held instead.
+  /// Sliding of the rod along itself costs T exp(−2√(T/B) L_tail) or so, hence next to nothing: the mean arclength of the
+  /// outermost contacts is held, ½(s_first + s_last) = c, by forces λ/2 round the cylinder at these two. They are zero at
+  /// an equilibrium; see RodProblem::release.
+  struct Gauges {
+    bool half_turn =
+        false;  ///< half chain: the first joint is mapped to itself, at s = 0; holds its odd motions
+    bool height = false;  ///< translation along the axis
+    bool along = false;   ///< translation along e_x (both ends of a free rod under a dead thrust)
+    bool spin = false;    ///< turn of every section about its tangent
+    bool slide = false;
+    std::optional<double> phase;  ///< turn of the rod by α about e_x, with a spin of phase·α
+  };
+
   /// @param joints  links.size() + 1 of them; fixed_s gives the arclength of joints that do not locate themselves,
   ///                as a multiple of loads.half_length (−1, 0 or 1); an infinite tail's far joint counts as ±infinity.
-  Chain(std::vector<std::unique_ptr<Joint>> joints, std::vector<double> fixed_s, std::vector<Link> links);
+  Chain(std::vector<std::unique_ptr<Joint>> joints, std::vector<double> fixed_s, std::vector<Link> links,
+        const Gauges& gauges);
 
   Eigen::Index ambient_size() const { return ambient_size_; }
   Eigen::Index size() const { return size_; }
@@ -48,9 +65,19 @@ class Chain {
   /// Length of the leading part of an increment that holds joint coordinates and arclengths.
   Eigen::Index geometric_size() const { return geometric_size_; }
   /// Row of a joint's location condition, and place of its arclength in an increment; −1: it does not locate itself.
-  Eigen::Index arclength_row(int joint) const {
-    return joints_[joint]->locates() ? numbering_.location[joint] : -1;
-  }
+  Eigen::Index arclength_row(int joint) const { return numbering_.location[joint]; }
+  /// Is the arclength of this joint unknown?
+  bool locates(int joint) const { return joints_[joint]->locates() && !(half() && joint == 0); }
+  /// Does a gauge hold the rod against sliding along itself in the equilibrium equations?
+  bool holds_slide() const { return slide_at_ >= 0; }
+  /// Place c of that gauge [ρ], and the force λ that it needs [EI/ρ²].
+  double& slide_place(VectorXd& x) const { return x(slide_at_); }
+  double slide_place(const VectorXd& x) const { return x(slide_at_); }
+  double holding_force(const VectorXd& x) const { return holds_slide() ? x(slide_at_ + 1) : 0.0; }
+  /// Row of the gauge, and place of λ in an increment.
+  Eigen::Index slide_row() const { return numbering_.slide; }
+  /// Share of joint j in the gauge: ½, ½; 1 where one contact is all there is.
+  double slide_share(int joint) const;
   int joint_count() const { return static_cast<int>(joints_.size()); }
   int link_count() const { return static_cast<int>(links_.size()); }
   const Joint& joint(int j) const { return *joints_[j]; }
@@ -94,6 +121,10 @@ class Chain {
   /// made by the last factor() at (x, loads); `odd` counts the variations of the other parity at a symmetry point.
   int index(const VectorXd& x, const Loads& loads, contact::Parity parity) const;
 
+  /// Second derivative of the energy with a slide δ of the whole rod along itself, everything else at rest under its
+  /// contacts: d²Π/dδ² [EI/ρ³], from the last factor() at (x, loads). Zero without a slide to hold.
+  double sliding_stiffness(const VectorXd& x, const Loads& loads) const;
+
   /// The second variation as a sparse symmetric matrix with its metric, for the spectrum. Size: see `constraints`.
   struct SecondVariation {
     Eigen::SparseMatrix<double> matrix;  ///< symmetric, indefinite (multipliers)
@@ -115,7 +146,7 @@ class Chain {
 
  private:
   /// Does the chain start at a symmetry point, so that variations of the other parity are to be counted too?
-  bool half() const { return fixed_s_[0] == 0.0; }
+  bool half() const { return gauges_.half_turn; }
   /// Which unknowns the dense block holds: those of equilibrium, or those of a variation at fixed contact edges.
   enum class Purpose { equilibrium, even, odd };
 
@@ -125,16 +156,25 @@ class Chain {
     MatrixXd columns;                ///< ends × dofs: change of the arc's ends per unknown
     MatrixXd rows;                   ///< ends × dofs: weights of the end equations in each dense equation
   };
-  /// Places of joint coordinates, of the unknowns of location conditions, and of forces in a dense block. The first are
-  /// contacts' arclengths; in equilibrium a held touch has its holding force there, in variations its arclength, and a pin
-  /// that keeps the rod from sliding.
+  /// Places of joint coordinates, of arclengths (the unknowns of location conditions), of forces, and of what the gauges of
+  /// sliding and phase add, in a dense block.
   struct Numbering {
-    std::vector<Eigen::Index> coordinate, location, pin, force;  ///< −1 where absent
+    std::vector<Eigen::Index> coordinate, location, force;  ///< −1 where absent
+    Eigen::Index slide = -1, spin = -1, height = -1, phase = -1;
     Eigen::Index size = 0, geometric = 0;
     int constraints = 0;  ///< multipliers and touch locations: one negative direction each
   };
 
   Numbering number(Purpose purpose) const;
+  void keep_coordinates();
+  /// Coordinates of a joint that vary.
+  const std::vector<int>& kept(Purpose purpose, int joint) const {
+    if (purpose == Purpose::equilibrium || (half() && joint > 0)) return kept_[joint];
+    return purpose == Purpose::odd ? odd_ : half() ? kept_[0] : varied_[joint];
+  }
+  /// Motion of the phase gauge as an increment: dense block, then interiors.
+  VectorXd phase_motion(Purpose purpose, const Numbering& numbering, const VectorXd& x,
+                        const Loads& loads) const;
   contact::Attachment attachment(Purpose purpose, const VectorXd& x, const Loads& loads, int joint,
                                  contact::Side side) const;
   Local local(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads,
@@ -143,7 +183,10 @@ class Chain {
   void add_joint_terms(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads,
                        int link, const bvp::EndsVector& gradient, MatrixXd& dense) const;
   void add_locations(const VectorXd& x, MatrixXd& dense) const;
-  void add_pins(const Numbering& numbering, const VectorXd& x, MatrixXd& dense) const;
+  void add_gauges(const Numbering& numbering, Purpose purpose, const VectorXd& x, MatrixXd& dense) const;
+  /// The dense block of a variation, interiors condensed with the last factorisation; symmetric.
+  MatrixXd condensed_variation(Purpose purpose, const Numbering& numbering, const VectorXd& x,
+                               const Loads& loads) const;
   contact::Joint::Location location(const VectorXd& x, int joint) const;
   /// Condensed Hessian plus the part that is antisymmetric because frames do not commute.
   static bvp::EndsMatrix with_commutator(const Arc& arc, const bvp::EndsMatrix& symmetric,
@@ -171,6 +214,13 @@ class Chain {
   std::vector<std::unique_ptr<Joint>> joints_;
   std::vector<double> fixed_s_;
   std::vector<Link> links_;
+  Gauges gauges_;
+  std::vector<std::vector<int>> kept_,
+      varied_;            ///< coordinates that vary at a joint, in equilibrium and in variations
+  std::vector<int> odd_;  ///< of the first joint of a half chain in odd variations
+  int first_contact_ = -1, last_contact_ = -1;  ///< the outermost contacts; without one the ends
+  bool in_contact_ = false;
+  Eigen::Index slide_at_ = -1;                                      ///< place of (c, λ) in the state
   std::vector<Eigen::Index> joint_at_, force_at_, interior_at_;     // offsets in the state
   std::vector<Eigen::Index> joint_row_, force_row_, interior_row_;  // offsets in the increment
   Eigen::Index ambient_size_ = 0, size_ = 0, dense_size_ = 0, geometric_size_ = 0;
@@ -185,7 +235,8 @@ class Chain {
   MatrixXd border_b_, border_c_;                    ///< reduced borders
   MatrixXd interior_b_, interior_c_;                ///< K⁻¹ b, K⁻¹ c on the interiors
   Eigen::PartialPivLU<MatrixXd> dense_;
-  Eigen::Index borders_ = 0;
+  Eigen::Index borders_ = 0;  ///< those asked for, then that of the phase
+  Eigen::Index asked_ = 0;
   int determinant_sign_ = 0;
   bool flat_ = false;  ///< the rod, and the borders in its plane
   std::optional<contact::Parity> neutral_turn_;

@@ -12,11 +12,12 @@ namespace windlass::chain {
 /// State of a stretch of rod: line contact, free between contacts, free to the end.
 enum class Stretch { line, gap, tail };
 
-/// The sequence of contacts, from the mid-point outward; joints follow from it (line–free: edge, free–free: touch).
+/// The sequence of contacts; joints follow from it (line–free: edge, free–free: touch).
 ///
-/// A half chain uses `right` only. `mid_touch`: the mid-point itself touches (both first stretches are then free).
+/// Of a half chain, symmetric under the half-turn, the stretches from s = 0 outward: the first spans both halves, unless
+/// `mid_touch`: the rod then touches at s = 0. A full chain is the whole rod from s = −L/2, and knows no mid-point.
 struct Topology {
-  std::vector<Stretch> right, left;
+  std::vector<Stretch> stretches;
   bool half = true;
   bool mid_touch = false;
 
@@ -26,18 +27,27 @@ struct Topology {
   bool operator==(const Topology&) const = default;
 };
 
+/// The whole rod of a half chain.
+Topology unfolded(const Topology& half);
+
+/// How an end of the rod is held. Free rods: clamped or pinned. Rods round a cylinder: clamped or moment_free.
+enum class EndKind { moment_free, clamped, pinned };
+
 /// What else a chain is made of.
 struct RodKind {
   bool spatial = false;
-  bool clamped = false;       ///< ends clamped (else free of moment)
+  EndKind left = EndKind::moment_free, right = EndKind::moment_free;
   bool infinite = false;      ///< closed-form tails
-  bool strut = false;         ///< no cylinder: clamped along e_x
+  bool strut = false;         ///< no cylinder, the ends on e_x
   bool under_thrust = false;  ///< strut: thrust given, else shortening
   double pull_angle =
       NAN;  ///< between the pulls, for a rod that they leave free to turn [rad]; NaN: it varies
-  double bending_stiffness = 1.0;
+  double bending_stiffness = 1.0;  ///< B, of bending in the plane that the flat rod lies in
+  /// Body frame: d₁ lies in that plane, so bending in it is about d₂ = −e_z: (B₂, B, C).
   Eigen::Vector3d stiffness = {1.0, 1.0, 2.0 / 3.0};
-  Eigen::Vector3d natural = Eigen::Vector3d::Zero();
+  Eigen::Vector3d natural = Eigen::Vector3d::Zero();  ///< (0, −κ̂, τ̂), κ̂ > 0 bends the way round the cylinder
+  double natural_curvature() const { return -natural(1); }
+  bool clamped() const { return left == EndKind::clamped || right == EndKind::clamped; }
   bool isotropic_straight() const { return stiffness(0) == stiffness(1) && natural.isZero(); }
 };
 
@@ -51,8 +61,5 @@ struct ArcMesh {
 /// @throws std::invalid_argument for a topology the kind of rod cannot have
 std::unique_ptr<Chain> build_chain(const RodKind& rod, const Topology& topology,
                                    const std::vector<ArcMesh>& meshes);
-
-/// Stretches in the order of the chain's links.
-std::vector<Stretch> stretches(const Topology& topology);
 
 }  // namespace windlass::chain

@@ -15,7 +15,7 @@
 /// is fixed by a location condition: tangency at a touch, continuous curvature at the edge of a line contact.
 namespace windlass::contact {
 
-inline constexpr int max_coordinates = 5;
+inline constexpr int max_coordinates = 6;
 using Coordinates = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
@@ -31,7 +31,7 @@ struct Loads {
 };
 
 enum class Side { left, right };  ///< the arc that ends here, the arc that starts here
-enum class JointKind { end, touch, edge, mid, marker, infinity };
+enum class JointKind { end, touch, edge, section, infinity };
 enum class Parity { even, odd };
 
 /// How one arc's end hangs on the joint: configuration q and position X with first derivatives.
@@ -57,10 +57,8 @@ class Joint {
   virtual int ambient() const = 0;                ///< stored coordinates
   virtual int tangent() const = 0;                ///< degrees of freedom
   virtual bool locates() const { return false; }  ///< is the arclength of this joint unknown?
-  /// A touch whose arclength is held, s = 0, so that the rod does not slide along itself. Tangency is an equation all the
-  /// same; the force that holds the rod, along the first coordinate, is its unknown (zero where sliding costs nothing).
-  virtual bool held() const { return false; }
-  /// Of a held touch: change of its first coordinate with the arclength, as the rod slides along itself.
+  /// Contacts: change of the place round the cylinder, the first coordinate, with the arclength, da/ds, as the rod slides
+  /// along itself.
   virtual double slide(const double* w) const { return (void)w, 1.0; }
 
   virtual Attachment attach(Side side, const double* w, const Loads& loads) const = 0;
@@ -93,13 +91,17 @@ class Joint {
     return SmallVector::Zero(tangent());
   }
 
-  /// Variations of the other parity at a symmetry point: replaces dq and dX of attach(); tangent count by columns.
-  virtual Attachment attach_odd(const double* w, const Loads& loads) const {
-    return attach(Side::right, w, loads);
-  }
-  /// curvature() of the odd attachment; most symmetry points vary linearly.
-  virtual void curvature_odd(const double* w, const SmallVector& f, SmallMatrix& out) const {
-    (void)w, (void)f, (void)out;
+  /// Degrees of freedom that the half-turn about e_y keeps where it maps the joint to itself, at s = 0; it reverses the
+  /// others.
+  virtual std::vector<int> even() const { return {}; }
+  /// The degrees of freedom that translate the rod along the axis and spin it about its tangent, −1: none.
+  virtual int height_coordinate() const { return -1; }
+  virtual int spin_coordinate() const { return -1; }
+
+  /// Change of the degrees of freedom as the whole rod turns about e_x by `turn` and every section about its tangent by
+  /// `spin` [rad]; see Chain::phase_motion.
+  virtual SmallVector turned(const double* w, double turn, double spin) const {
+    return (void)w, (void)turn, (void)spin, SmallVector::Zero(tangent());
   }
 
   virtual void retract(const double* w, const double* dw, double* out) const = 0;

@@ -1,13 +1,12 @@
 #pragma once
 
+#include <cmath>
+
 #include "windlass/contact/joint.hpp"
 
 /// Joints of the planar elastica round the unit circle.
 ///
-/// The mid-point s = 0 is held along the rod (odd variations keep a, x or s there): under two equal dead pulls a
-/// frictionless rod slides along itself at a cost of order exp(−2√T L_tail), a rigid motion for long tails.
-///
-///  Configuration θ; position (x, y) on free arcs, the angle a on
+/// Configuration θ; position (x, y) on free arcs, the angle a on
 /// a line contact. Contact place: X(a) = (sin a, −cos a), outward normal N(a) = X(a).
 namespace windlass::contact::planar {
 
@@ -22,7 +21,7 @@ class VectorJoint : public Joint {
 
 /// Isolated touch: w = (a, θ), arclength unknown.
 /// Equations 3: tangential force balance, moment continuity, tangency sin(a − θ) = 0. Force by the normal balance.
-class Touch : public VectorJoint {
+class Touch final : public VectorJoint {
  public:
   JointKind kind() const override { return JointKind::touch; }
   int tangent() const override { return 2; }
@@ -32,25 +31,16 @@ class Touch : public VectorJoint {
                  SmallMatrix& out) const override;
   Location location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const override;
   double angle(const double* w) const override { return w[0]; }
+  double slide(const double* w) const override { return std::cos(w[0] - w[1]); }
   void adopt(const Place& place, double* w) const override { w[0] = place.angle, w[1] = place.heading; }
 };
 
-/// The mid-point of a full chain on a touch: s = 0, and the force that holds it there is unknown. (Balance would give
-/// tangency, because a rod free to slide under equal pulls has the same H = n·t + m²/2B left and right of the touch; but
-/// only as far as the touch's force is not zero.)
-class MarkerTouch final : public Touch {
- public:
-  bool locates() const override { return false; }
-  bool held() const override { return true; }
-  double slide(const double* w) const override { return location(w, {}, {}).by_w(0); }
-};
-
 /// End of a line contact: w = (a), arclength unknown.
-/// Equations 2: balance in a (tension and moment), curvature of the free arc equal to the circle's: |m| = EI.
+/// Equations 2: balance in a (tension and moment), curvature of the free arc equal to the circle's: m = EI (1 − κ̂).
 class Edge final : public VectorJoint {
  public:
-  explicit Edge(Side line_side, double bending_stiffness = 1.0)
-      : line_(line_side), stiffness_(bending_stiffness) {}
+  /// @param line_moment  m on the circle, EI (1 − κ̂) [EI/ρ]
+  explicit Edge(Side line_side, double line_moment = 1.0) : line_(line_side), line_moment_(line_moment) {}
   JointKind kind() const override { return JointKind::edge; }
   int tangent() const override { return 1; }
   bool locates() const override { return true; }
@@ -63,35 +53,28 @@ class Edge final : public VectorJoint {
 
  private:
   Side line_;
-  double stiffness_;
+  double line_moment_;
 };
 
-/// Mirror point s = 0 on a line contact: a = 0, nothing unknown, in odd variations too (sliding is held).
-class MidLine final : public VectorJoint {
+/// A section of a line contact, where the symmetry of a half chain meets it: w = (a).
+class SurfaceSection final : public VectorJoint {
  public:
-  JointKind kind() const override { return JointKind::mid; }
-  int tangent() const override { return 0; }
-  Attachment attach(Side side, const double* w, const Loads& loads) const override;
-  void adopt(const Place& place, double* w) const override { (void)place, (void)w; }
-};
-
-/// Mirror point on a free arc: x = 0, θ = 0 (mod 2π, held), w = (y). Odd variations: θ.
-class MidGap final : public VectorJoint {
- public:
-  JointKind kind() const override { return JointKind::mid; }
+  JointKind kind() const override { return JointKind::section; }
   int tangent() const override { return 1; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
-  Attachment attach_odd(const double* w, const Loads& loads) const override;
-  void adopt(const Place& place, double* w) const override { w[0] = place.r(1); }
+  void adopt(const Place& place, double* w) const override { w[0] = place.angle; }
 };
 
-/// The mid-point of a full chain on a free arc: w = (y, θ), x = 0 held. (On a line contact MidLine serves.)
-class MarkerGap final : public VectorJoint {
+/// A section of a free arc, likewise: w = (x, y, θ).
+class FreeSection final : public VectorJoint {
  public:
-  JointKind kind() const override { return JointKind::marker; }
-  int tangent() const override { return 2; }
+  JointKind kind() const override { return JointKind::section; }
+  int tangent() const override { return 3; }
+  std::vector<int> even() const override { return {1}; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
-  void adopt(const Place& place, double* w) const override { w[0] = place.r(1), w[1] = place.heading; }
+  void adopt(const Place& place, double* w) const override {
+    w[0] = place.r(0), w[1] = place.r(1), w[2] = place.heading;
+  }
 };
 
 /// Far end of an infinite tail: carries nothing.
@@ -105,18 +88,6 @@ class FarEnd final : public VectorJoint {
 
  private:
   int configuration_, forces_;
-};
-
-/// Mirror point on a touch at the south pole: nothing unknown. Odd variations: (a, θ), the arclength held.
-class MidTouch final : public VectorJoint {
- public:
-  JointKind kind() const override { return JointKind::touch; }
-  int tangent() const override { return 0; }
-  bool held() const override { return true; }
-  Attachment attach(Side side, const double* w, const Loads& loads) const override;
-  Attachment attach_odd(const double* w, const Loads& loads) const override;
-  void curvature_odd(const double* w, const SmallVector& f, SmallMatrix& out) const override;
-  void adopt(const Place& place, double* w) const override { (void)place, (void)w; }
 };
 
 /// Rod end under the dead pull. moment_free: w = (θ); clamped: θ along the pull, nothing unknown.

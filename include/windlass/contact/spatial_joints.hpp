@@ -34,7 +34,11 @@ class Touch final : public Joint {
   int ambient() const override { return 6; }
   int tangent() const override { return 5; }
   std::vector<int> out_of_plane() const override { return {1, 2, 4}; }
+  std::vector<int> even() const override { return {2}; }
+  int height_coordinate() const override { return 1; }
+  int spin_coordinate() const override { return 4; }
   bool locates() const override { return true; }
+  double slide(const double* w) const override { return location(w, {}, {}).by_w(0); }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
                  SmallMatrix& out) const override;
@@ -55,7 +59,10 @@ class Edge final : public VectorJoint {
   int ambient() const override { return 4; }
   int tangent() const override { return 4; }
   std::vector<int> out_of_plane() const override { return {1, 2, 3}; }
+  int height_coordinate() const override { return 1; }
+  int spin_coordinate() const override { return 3; }
   bool locates() const override { return true; }
+  double slide(const double* w) const override { return std::cos(w[2]); }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
                  SmallMatrix& out) const override;
@@ -71,123 +78,34 @@ class Edge final : public VectorJoint {
   double stiffness_;
 };
 
-/// Half-turn point on a line contact: a = z = χ = 0, w = (ψ). Odd variations: χ when twist is held (clamped ends).
-/// Pinned rigid motions: z (translation), a (sliding of the rod along itself, see contact::planar), and χ for ends
-/// free of moment (spin).
-class MidLine final : public VectorJoint {
+/// A section of a line contact, where the half-turn of a half chain meets it: w = (a, z, ψ, χ).
+class SurfaceSection final : public VectorJoint {
  public:
-  explicit MidLine(bool twist_held) : twist_held_(twist_held) {}
-  JointKind kind() const override { return JointKind::mid; }
-  int tangent() const override { return 1; }
-  std::vector<int> out_of_plane() const override { return {0}; }
-  Attachment attach(Side side, const double* w, const Loads& loads) const override;
-  Attachment attach_odd(const double* w, const Loads& loads) const override;
-  void adopt(const Place& place, double* w) const override;
-
- private:
-  bool twist_held_;
-};
-
-/// The mid-point of a full chain lying on a line contact: w = (ψ), or (ψ, χ) when twist is held. It pins the rigid
-/// motions of the whole rod (a = z = 0; χ = 0 for ends free of moment).
-class MarkerLine final : public VectorJoint {
- public:
-  explicit MarkerLine(bool twist_held) : twist_held_(twist_held) {}
-  JointKind kind() const override { return JointKind::marker; }
-  int tangent() const override { return twist_held_ ? 2 : 1; }
-  std::vector<int> out_of_plane() const override { return twist_held_ ? std::vector{0, 1} : std::vector{0}; }
+  JointKind kind() const override { return JointKind::section; }
+  int tangent() const override { return 4; }
+  std::vector<int> even() const override { return {2}; }
+  int height_coordinate() const override { return 1; }
+  int spin_coordinate() const override { return 3; }
+  std::vector<int> out_of_plane() const override { return {1, 2, 3}; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   void adopt(const Place& place, double* w) const override;
-
- private:
-  bool twist_held_;
 };
 
-/// The mid-point of a full chain on a free arc: w = (y, q), with x = z = 0 held, and the spin about d₃ unless twist is
-/// held. 4 or 3 degrees of freedom. `along`: w = (x, y, q), for struts whose ends hold x.
-class MarkerGap final : public Joint {
+/// A section of a free arc, likewise: w = (r, q), 6 degrees of freedom. On the half-turn's axis d₁ = −e_y: the rod may turn
+/// about it and move along it.
+class FreeSection final : public Joint {
  public:
-  explicit MarkerGap(bool twist_held, bool along = false) : twist_held_(twist_held), along_(along) {}
-  JointKind kind() const override { return JointKind::marker; }
-  int ambient() const override { return along_ ? 6 : 5; }
-  int tangent() const override { return (along_ ? 2 : 1) + (twist_held_ ? 3 : 2); }
-  std::vector<int> out_of_plane() const override {
-    return twist_held_ ? std::vector{places(), places() + 2} : std::vector{places()};
-  }
+  JointKind kind() const override { return JointKind::section; }
+  int ambient() const override { return 7; }
+  int tangent() const override { return 6; }
+  std::vector<int> even() const override { return {1, 3}; }
+  int height_coordinate() const override { return 2; }
+  int spin_coordinate() const override { return 5; }
+  std::vector<int> out_of_plane() const override { return {2, 3, 5}; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   void retract(const double* w, const double* dw, double* out) const override;
+  SmallVector turned(const double* w, double turn, double spin) const override;
   void adopt(const Place& place, double* w) const override;
-
- private:
-  int places() const { return along_ ? 2 : 1; }
-  bool twist_held_, along_;
-};
-
-/// The mid-point of a full chain on a touch: w = (a, q), with s = z = 0 held, and the spin about d₃ unless twist is held.
-/// 4 or 3 degrees of freedom, and the holding force (see contact::planar::MarkerTouch).
-class MarkerTouch final : public Joint {
- public:
-  explicit MarkerTouch(bool twist_held) : twist_held_(twist_held) {}
-  JointKind kind() const override { return JointKind::touch; }
-  int ambient() const override { return 5; }
-  int tangent() const override { return twist_held_ ? 4 : 3; }
-  std::vector<int> out_of_plane() const override { return twist_held_ ? std::vector{1, 3} : std::vector{1}; }
-  bool held() const override { return true; }
-  double slide(const double* w) const override { return location(w, {}, {}).by_w(0); }
-  Attachment attach(Side side, const double* w, const Loads& loads) const override;
-  Location location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const override;
-  void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
-                 SmallMatrix& out) const override;
-  void retract(const double* w, const double* dw, double* out) const override;
-  double angle(const double* w) const override { return w[0]; }
-  void adopt(const Place& place, double* w) const override;
-
- private:
-  bool twist_held_;
-};
-
-/// Half-turn point on a free arc: r = (0, y, 0), frame turned by ψ about the half-turn axis e_y; w = (y, ψ).
-/// Odd variations: spins about d₂ and d₃; x and z where no rigid motion is to be pinned.
-class MidGap final : public VectorJoint {
- public:
-  struct OddFreedom {
-    bool along = false;   ///< x varies (false: sliding of the rod along itself, pinned)
-    bool height = false;  ///< z varies (false: rigid translation, pinned)
-    bool spin = true;  ///< spin about d₃ varies (false: rigid spin of an isotropic rod free of end moment)
-    bool phase =
-        false;  ///< an isotropic strut's shape may turn about e_x at no cost: held by a spring (curvature_odd)
-  };
-  explicit MidGap(OddFreedom odd) : odd_(odd) {}
-  JointKind kind() const override { return JointKind::mid; }
-  int tangent() const override { return 2; }
-  std::vector<int> out_of_plane() const override { return {1}; }
-  Attachment attach(Side side, const double* w, const Loads& loads) const override;
-  Attachment attach_odd(const double* w, const Loads& loads) const override;
-  /// The phase condition: a spring against turning about e_x. That motion is a rigid one, so any stiffness leaves the
-  /// inertia of the others as it is; a straight strut does not move in it, feels no spring, and keeps both planes.
-  void curvature_odd(const double* w, const SmallVector& f, SmallMatrix& out) const override;
-  void adopt(const Place& place, double* w) const override;
-
- private:
-  OddFreedom odd_;
-};
-
-/// Half-turn point on a touch at the south pole: w = (ψ). Odd variations: a, spins about d₂ and d₃.
-class MidTouch final : public VectorJoint {
- public:
-  explicit MidTouch(bool twist_held) : twist_held_(twist_held) {}
-  JointKind kind() const override { return JointKind::touch; }
-  int tangent() const override { return 1; }
-  std::vector<int> out_of_plane() const override { return {0}; }
-  bool held() const override { return true; }
-  double slide(const double* w) const override { return std::cos(w[0]); }
-  Attachment attach(Side side, const double* w, const Loads& loads) const override;
-  Attachment attach_odd(const double* w, const Loads& loads) const override;
-  void curvature_odd(const double* w, const SmallVector& f, SmallMatrix& out) const override;
-  void adopt(const Place& place, double* w) const override;
-
- private:
-  bool twist_held_;
 };
 
 /// Rod end under the dead pull. moment_free: w = (q), 3 degrees of freedom. clamped: frame along the pull, as in the untwisted planar rod.
@@ -207,20 +125,30 @@ class End final : public Joint {
   bool clamped_;
 };
 
-/// Clamped end of a strut along e_x: frame turned by ±twist/2 about e_x, y = z = 0. x is imposed by the shortening,
-/// x = ±(1 − shortening)·half_length, or w = (x) under the dead thrust.
-class StrutEnd final : public VectorJoint {
+/// End of a free rod along e_x, y = z = 0; see EndKind. x is imposed by the shortening, x = ±(1 − shortening)·half_length, or
+/// the first coordinate under the dead thrust.
+///  - clamped: frame turned by ±twist/2 about e_x;
+///  - pinned: free of moment, the frame turns as it likes: coordinates (q).
+class FreeRodEnd final : public Joint {
  public:
-  StrutEnd(Side arc_side, bool under_thrust) : arc_(arc_side), under_thrust_(under_thrust) {}
+  FreeRodEnd(Side arc_side, bool under_thrust, bool pinned)
+      : arc_(arc_side), under_thrust_(under_thrust), pinned_(pinned) {}
   JointKind kind() const override { return JointKind::end; }
-  int tangent() const override { return under_thrust_ ? 1 : 0; }
+  int ambient() const override { return under_thrust_ + (pinned_ ? 4 : 0); }
+  int tangent() const override { return under_thrust_ + (pinned_ ? 3 : 0); }
+  int spin_coordinate() const override { return pinned_ ? under_thrust_ + 2 : -1; }
+  std::vector<int> out_of_plane() const override {
+    return pinned_ ? std::vector<int>{under_thrust_, under_thrust_ + 2} : std::vector<int>{};
+  }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   SmallVector dead_load(const double* w, const Loads& loads) const override;
+  void retract(const double* w, const double* dw, double* out) const override;
+  SmallVector turned(const double* w, double turn, double spin) const override;
   void adopt(const Place& place, double* w) const override;
 
  private:
   Side arc_;
-  bool under_thrust_;
+  bool under_thrust_, pinned_;
 };
 
 }  // namespace windlass::contact::spatial

@@ -22,9 +22,6 @@ namespace windlass::equilibrium {
 /// Forces of an arc of length ℓ carry rounding errors like 1/ℓ: it gives way to the topology without it this early, and
 /// the event itself is located there.
 inline constexpr double least_length = 1e-3;
-/// So far a contact goes over the mid-point of a full chain before it counts to the other side: nothing is lost there.
-inline constexpr double past_mid = 1e-5;
-
 struct ContactEvent {
   enum class Kind { pressure, length, force, curvature, graze };
   Kind kind = Kind::force;
@@ -34,10 +31,6 @@ struct ContactEvent {
   bool imminent = false;  ///< length of a gap so short that its two touches can hardly be told apart
   std::string name() const;
 };
-
-/// Does a stretch across the mid-point of a full chain run out on one side only? What bounds it there moves over the
-/// mid-point then.
-bool one_side_ends(double length, double other_length);
 
 /// All events of a state, in a fixed order for a given topology.
 std::vector<ContactEvent> contact_events(const chain::Profile& profile, const chain::Topology& topology);
@@ -49,7 +42,6 @@ struct Successor {
   std::vector<int> source;    ///< link of the old chain whose mesh each new arc inherits
   std::vector<int> opened;    ///< links that have no length at the event itself
   bool nothing_left = false;  ///< no contact remains: the branch ends
-  bool passes_mid = false;    ///< a contact moves over the mid-point of a full chain: the same contacts
 };
 
 /// Candidates for what follows the event, most likely first.

@@ -59,6 +59,11 @@ class RodProblem final : public continuation::Problem {
   Vector refine(Vector x, const Vector& p, int rounds = 6);
   /// Newton at fixed p on the bare chain. @returns iterations used, or −1
   int polish(Vector& x, const Vector& p, int most = 25);
+  /// Lets a full chain slide along itself until nothing holds it: Newton in the gauge's place c for λ(c) = 0, which stays
+  /// well conditioned where sliding costs next to nothing. Done when λ is below 1e-10 of the pulls.
+  bool settle(Vector& x, const Vector& p) override;
+  /// d²Π/dδ² of a slide of the whole rod along itself; see Chain::sliding_stiffness.
+  double sliding_stiffness(const Vector& x, const Vector& p);
 
   chain::Profile profile(const Vector& x, const Vector& p);
   /// Arclengths of the chain's joints; the ends of infinite tails where `shape`, the state's profile, ends.
@@ -98,6 +103,7 @@ class RodProblem final : public continuation::Problem {
   std::vector<chain::ArcMesh> new_meshes(const Vector& x, const contact::Loads& loads, double growth) const;
   /// The state on `meshes`, which replace the present ones; nullopt, and nothing is changed, where Newton fails or,
   /// with `within`, the errors there are too large.
+  std::optional<Vector> remeshed_where_needed(const Vector& x, const Vector& p);
   std::optional<Vector> moved_to(std::vector<chain::ArcMesh> meshes, const Vector& x, const Vector& p,
                                  bool within);
 

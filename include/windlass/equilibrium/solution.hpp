@@ -17,7 +17,6 @@ enum class JointKind {
   end,
   touch,
   edge,
-  held,  ///< the mid-point of a full chain, where a force holds the rod
   infinity
 };  ///< infinity: start of a closed-form infinite tail's far end
 
@@ -45,13 +44,10 @@ struct JointRecord {
   double z = 0.0;                               ///< [ρ]
   double force = 0.0;                           ///< size of the contact point force, >= 0 [EI/ρ²]
   Eigen::Vector3d r = Eigen::Vector3d::Zero();  ///< position [ρ]
-  /// Force that holds the rod's mid-point, on a touch along the circumference, else along e_x [EI/ρ²]. Two equal pulls
-  /// slide an asymmetric rod along itself unless its tails are infinite: a force of some T exp(−2√T L_tail).
+  /// Force along the circumference that holds the rod against sliding along itself [EI/ρ²], at the outermost contacts: zero
+  /// to rounding at an equilibrium. What is not is no equilibrium, and the certificate fails.
   double holding = 0.0;
-  Eigen::Vector3d holding_direction() const {
-    return kind == JointKind::touch ? Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0)
-                                    : Eigen::Vector3d::UnitX();
-  }
+  Eigen::Vector3d holding_direction() const { return {std::cos(angle), std::sin(angle), 0.0}; }
 };
 
 struct Invariants {
@@ -78,7 +74,9 @@ struct Stability {
   int index = 0;                    ///< number of negative eigenvalues (SLEPc and inertia agree)
   int inertia_index = 0;            ///< the second opinion, from the factorisation
   std::vector<double> eigenvalues;  ///< lowest first
-  bool degenerate = false;          ///< a contact carries zero force to within tolerance
+  /// Index and eigenvalues are those of the rod held against sliding along itself; this judges the slide: d²Π/dδ² [EI/ρ³].
+  double sliding = 0.0;
+  bool degenerate = false;  ///< a contact carries zero force to within tolerance
   std::vector<Mode> modes;
 };
 

@@ -41,6 +41,9 @@ std::optional<Started> discovered_start(const scene::Scene& scene, bool spatial,
 Started lift(RodProblem& planar, const Vector& x, const Vector& p, bool half);
 
 /// The full chain of a symmetric state. @throws NoEquilibrium
+/// Mesh of the mirror image of an arc, and of the two as one.
+chain::ArcMesh reversed(const chain::ArcMesh& mesh);
+chain::ArcMesh spanning(const chain::ArcMesh& right);
 Started unfold(RodProblem& halved, const Vector& x, const Vector& p, int iterations);
 
 /// Tails as they can be: a formula where a finite tail without torsion or moment at its end leaves a line contact

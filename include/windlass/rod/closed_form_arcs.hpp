@@ -5,11 +5,12 @@
 /// Arcs whose action is known exactly: no mesh where a formula will do.
 namespace windlass::rod {
 
-/// Line contact of the planar rod with the unit circle: S = ℓ (½ EI − n_a); no configuration of its own.
-/// n_a is the conserved axial torque, n_a = n_t + EI on the circle; the pressure is p = n_t.
+/// Line contact of the planar rod with the unit circle: S = ℓ (½ EI (1 − κ̂)² − n_a); no configuration of its own.
+/// n_a is the conserved axial torque, n_a = n_t + EI (1 − κ̂) on the circle; the pressure is p = n_t.
 class PlanarLineArc final : public bvp::Arc {
  public:
-  explicit PlanarLineArc(double bending_stiffness = 1.0) : stiffness_(bending_stiffness) {}
+  explicit PlanarLineArc(double bending_stiffness = 1.0, double natural_curvature = 0.0)
+      : stiffness_(bending_stiffness), strain_(1.0 - natural_curvature) {}
   int ambient() const override { return 0; }
   int tangent() const override { return 0; }
   int forces() const override { return 1; }
@@ -18,14 +19,16 @@ class PlanarLineArc final : public bvp::Arc {
   void hessian(const bvp::ArcPoint& at, std::vector<Eigen::Triplet<double>>& entries) const override;
   Eigen::VectorXd metric(const bvp::ArcPoint& at) const override;
   bvp::ArcSamples sample(const bvp::ArcPoint& at) const override;
-  double energy(const bvp::ArcPoint& at) const override { return 0.5 * stiffness_ * at.length; }
+  double energy(const bvp::ArcPoint& at) const override {
+    return 0.5 * stiffness_ * strain_ * strain_ * at.length;
+  }
   std::unique_ptr<bvp::Arc> remeshed(const std::vector<double>&, int) const override {
-    return std::make_unique<PlanarLineArc>(stiffness_);
+    return std::make_unique<PlanarLineArc>(*this);
   }
   Eigen::VectorXd transfer(const bvp::ArcPoint&, const bvp::Arc&) const override { return {}; }
 
  private:
-  double stiffness_;
+  double stiffness_, strain_;
 };
 
 /// Tail without torsion under the dead pull n, infinite or with a moment-free end: the elastica in the plane of n and the

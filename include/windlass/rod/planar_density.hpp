@@ -7,25 +7,27 @@
 
 namespace windlass::rod {
 
-/// Planar elastica under end loads only:  L(θ, θ', n) = ½ EI θ'² − n·(cos θ, sin θ).
+/// Planar elastica under end loads only:  L(θ, θ', n) = ½ EI (θ' − κ̂)² − n·(cos θ, sin θ).
 ///
 /// θ is the angle of the tangent to e_x [rad]; n the internal force in the plane [EI/ρ²], constant on the arc.
-/// Stationarity gives θ' = m/EI, m' = n_x sin θ − n_y cos θ (PHYSICS, planar elastica).
+/// Stationarity gives θ' = κ̂ + m/EI, m' = n_x sin θ − n_y cos θ (PHYSICS, planar elastica).
 struct PlanarDensity {
   static constexpr int ambient = 1, tangent = 1, forces = 2;
   static constexpr double metric_scale = 1.0;
   using Scalar = Eigen::Matrix<double, 1, 1>;
 
   double bending_stiffness = 1.0;
+  double natural_curvature = 0.0;  ///< κ̂ [1/ρ]
 
   Eigen::Vector2d direction(const Scalar& q) const { return {std::cos(q(0)), std::sin(q(0))}; }
   double elastic(const Scalar&, const Scalar& slope) const {
-    return 0.5 * bending_stiffness * slope(0) * slope(0);
+    const double strain = slope(0) - natural_curvature;
+    return 0.5 * bending_stiffness * strain * strain;
   }
   double first(const Scalar& q, const Scalar& slope, const Eigen::Vector2d& n, Eigen::Vector2d& gz,
                Eigen::Vector2d& d) const {
     d = direction(q);
-    gz << n(0) * d(1) - n(1) * d(0), bending_stiffness * slope(0);
+    gz << n(0) * d(1) - n(1) * d(0), bending_stiffness * (slope(0) - natural_curvature);
     return elastic(q, slope) - n.dot(d);
   }
   void second(const Scalar& q, const Scalar& slope, const Eigen::Vector2d& n, Eigen::Vector2d& gz,

@@ -9,7 +9,8 @@
 /// scene; `units` then carries the scales that give millimetres and newtons back.
 namespace windlass::scene {
 
-enum class EndKind { moment_free, clamped };
+/// Free rods (no cylinder) hold the places of their ends on e_x: `moment_free` is `pinned` there.
+enum class EndKind { moment_free, clamped, pinned };
 enum class ModelKind { automatic, closed_form, planar, kirchhoff };
 enum class Symmetry { automatic, half_turn, none };
 
@@ -18,8 +19,8 @@ struct Rod {
   double bending_stiffness_2 = 1.0;  ///< EI2 [EI]; differs from EI1 only for anisotropic free rods
   double twist_ratio = 2.0 / 3.0;    ///< GJ/EI [-]
   double length = 0.0;               ///< whole rod [ρ]; infinity() for `length = "inf"`
-  double natural_curvature = 0.0;    ///< û₁ [1/ρ]
-  double natural_twist = 0.0;        ///< û₃ [1/ρ]
+  double natural_curvature = 0.0;  ///< κ̂ in the plane of the flat rod, > 0 the way round the cylinder [1/ρ]
+  double natural_twist = 0.0;      ///< û₃ [1/ρ]
   bool infinite() const;
 
   bool operator==(const Rod&) const = default;
@@ -35,6 +36,9 @@ struct Load {
 
 struct Ends {
   EndKind kind = EndKind::moment_free;
+  std::optional<EndKind> left, right;  ///< where one differs from `kind`
+  EndKind left_kind() const { return left.value_or(kind); }
+  EndKind right_kind() const { return right.value_or(kind); }
   std::optional<double> shortening;  ///< strut only: end shortening / length [-]
   double twist = 0.0;                ///< strut only: relative end rotation about the axis [rad]
 
@@ -90,6 +94,9 @@ struct Scene {
   std::optional<Units> units;  ///< physical scenes only
   std::string resolved_toml;   ///< the scene as resolved (defaults and --set applied), dimensionless;
                                ///< reading it again gives an equal Scene
+
+  /// Is a half chain, symmetric under the half-turn, admitted?
+  bool half_turn() const { return model.symmetry != Symmetry::none && ends.left_kind() == ends.right_kind(); }
 
   bool operator==(const Scene&) const = default;
 };

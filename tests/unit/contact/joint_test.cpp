@@ -111,35 +111,28 @@ BOOST_AUTO_TEST_CASE(attachments_of_planar_joints) {
   using namespace contact::planar;
   check("touch", Touch(), {Side::left, Side::right});
   check("edge", Edge(Side::left, 1.2), {Side::left, Side::right});
-  check("mid gap", MidGap(), {Side::right});
-  check("marker gap", MarkerGap(), {Side::left, Side::right});
+  check("section of a line", SurfaceSection(), {Side::left, Side::right});
+  check("section of a free arc", FreeSection(), {Side::left, Side::right});
   check("end", End(Side::left, false), {Side::left});
 }
 
 BOOST_AUTO_TEST_CASE(attachments_of_spatial_joints) {
   using namespace contact::spatial;
   check("touch", Touch(), {Side::left, Side::right});
-  check("touch at the mid-point", MarkerTouch(true), {Side::left, Side::right});
-  check("the same, spin held", MarkerTouch(false), {Side::left, Side::right});
   check("edge", Edge(Side::left, 1.2), {Side::left, Side::right});
   check("edge of a line to the right", Edge(Side::right, 1.2), {Side::left, Side::right});
-  check("mid line", MidLine(true), {Side::right});
-  check("marker line", MarkerLine(true), {Side::left, Side::right});
-  check("marker gap", MarkerGap(true), {Side::left, Side::right});
-  check("marker gap of a strut", MarkerGap(true, true), {Side::left, Side::right});
-  check("mid gap", MidGap({}), {Side::right});
-  check("mid touch", MidTouch(true), {Side::right});
+  check("section of a line", SurfaceSection(), {Side::left, Side::right});
+  check("section of a free arc", FreeSection(), {Side::left, Side::right});
   check("end", End(Side::left, false), {Side::left});
-  check("strut end", StrutEnd(Side::left, true), {Side::left});
+  for (const bool under_thrust : {false, true})
+    for (const bool pinned : {false, true})
+      check("end of a free rod", FreeRodEnd(Side::left, under_thrust, pinned), {Side::left});
 }
 
 BOOST_AUTO_TEST_CASE(location_conditions) {
   check_location("planar touch", contact::planar::Touch(), 1);
   check_location("planar edge", contact::planar::Edge(Side::left, 1.2), 1);
   check_location("spatial touch", contact::spatial::Touch(), 3);
-  check_location("planar touch at the mid-point", contact::planar::MarkerTouch(), 1);
-  check_location("spatial touch at the mid-point", contact::spatial::MarkerTouch(true), 3);
-  check_location("the same, spin held", contact::spatial::MarkerTouch(false), 3);
   check_location("spatial edge", contact::spatial::Edge(Side::left, 1.2), 3);
   check_location("spatial edge of a line to the right", contact::spatial::Edge(Side::right, 1.2), 3);
 }
@@ -150,31 +143,21 @@ BOOST_AUTO_TEST_CASE(surface_frames_and_coordinates_are_inverse) {
   BOOST_TEST((at - Eigen::Vector3d(0.4, 0.3, -0.8)).norm() < 1e-14);
 }
 
-BOOST_AUTO_TEST_CASE(the_phase_spring_holds_the_turn_about_the_struts_axis_and_nothing_else) {
-  using contact::spatial::MidGap;
-  const MidGap joint(MidGap::OddFreedom{true, true, true, true});
-  const double w[2] = {0.3, 0.8};
-  const Attachment odd = joint.attach_odd(w, some_loads());
-  SmallMatrix spring = SmallMatrix::Zero(odd.dq.cols(), odd.dq.cols());
-  joint.curvature_odd(w, SmallVector::Zero(3), spring);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen{Eigen::MatrixXd(spring)};
-  BOOST_TEST(std::abs(eigen.eigenvalues()(2)) < 1e-9 * eigen.eigenvalues()(3));  // rank one
-  const SmallVector turn = eigen.eigenvectors().col(3);
-  // The whole shape turned by ε about e_x, each section spun back by ε about its tangent.
-  constexpr double epsilon = 1e-6;
+// Space turns by ε about e_x, each section by σ ε about its tangent.
+BOOST_AUTO_TEST_CASE(joints_turn_about_the_axis_of_a_free_rods_ends) {
+  constexpr double epsilon = 1e-6, spin = -0.7;
   using rod::product, rod::rotation;
-  const rod::Quaternion q = odd.q;
+  const contact::spatial::FreeSection joint;
+  const VectorXd w = coordinates(joint);
+  const Attachment here = joint.attach(Side::right, w.data(), some_loads());
+  const SmallVector motion = joint.turned(w.data(), 1.0, spin);
+  const rod::Quaternion q = here.q;
   const rod::Quaternion turned = product(product(rotation(Eigen::Vector3d::UnitX(), epsilon), q),
-                                         rotation(Eigen::Vector3d::UnitZ(), -epsilon));
-  Eigen::Matrix<double, 6, 1> expected, got;
-  expected << increment(q, turned) / epsilon, Eigen::Vector3d::UnitX().cross(Eigen::Vector3d(odd.x));
-  got << Eigen::Vector3d(odd.dq * turn), Eigen::Vector3d(odd.dx * turn);
-  BOOST_TEST(std::abs(std::abs(got.normalized().dot(expected.normalized())) - 1.0) < 1e-9);
-  // A straight strut does not move in that turn and feels no spring: it may bow in every plane.
-  const double straight[2] = {0.0, 0.0};
-  spring.setZero();
-  joint.curvature_odd(straight, SmallVector::Zero(3), spring);
-  BOOST_TEST(spring.norm() == 0.0);
+                                         rotation(Eigen::Vector3d::UnitZ(), spin * epsilon));
+  // First differences of a smooth motion: ε.
+  BOOST_TEST((increment(q, turned) / epsilon - VectorXd(here.dq * motion)).norm() < 1e-5);
+  const Eigen::Vector3d r = here.x, moved = Eigen::AngleAxisd(epsilon, Eigen::Vector3d::UnitX()) * r;
+  BOOST_TEST(((moved - r) / epsilon - Eigen::Vector3d(here.dx * motion)).norm() < 1e-5);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

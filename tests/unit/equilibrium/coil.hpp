@@ -59,13 +59,16 @@ inline Coil planar_coil(double tension, int elements = 12, int stages = 6) {
   const contact::Loads loads = coil_loads(tension);
   const std::vector<double> mesh = graded(elements, 1.5);
   std::vector<std::unique_ptr<contact::Joint>> joints;
-  joints.push_back(std::make_unique<MidLine>());
+  joints.push_back(std::make_unique<SurfaceSection>());
   joints.push_back(std::make_unique<Edge>(contact::Side::left));
   joints.push_back(std::make_unique<End>(contact::Side::left, false));
   std::vector<chain::Link> links;
   links.push_back({std::make_unique<rod::PlanarLineArc>(), "line", 0});
   links.push_back({bvp::make_collocation_arc(rod::PlanarDensity{}, mesh, stages), "tail", 1});
-  Coil coil{chain::Chain(std::move(joints), {0.0, 0.0, 1.0}, std::move(links)), {}, loads};
+  Coil coil{chain::Chain(std::move(joints), {0.0, 0.0, 1.0}, std::move(links),
+                         {.half_turn = true, .slide = true, .phase = {}}),
+            {},
+            loads};
   const double contact_end = 0.5 * loads.angle - std::acos(1.0 - 0.5 / tension);
   coil.x = Eigen::VectorXd::Zero(coil.chain.ambient_size());
   *coil.chain.coordinates(coil.x, 1) = contact_end;
@@ -82,14 +85,17 @@ inline Coil spatial_coil(double tension, int elements = 12, int stages = 6) {
   const contact::Loads loads = coil_loads(tension);
   const std::vector<double> mesh = graded(elements, 1.5);
   std::vector<std::unique_ptr<contact::Joint>> joints;
-  joints.push_back(std::make_unique<MidLine>(false));
+  joints.push_back(std::make_unique<SurfaceSection>());
   joints.push_back(std::make_unique<Edge>(contact::Side::left, 1.0));
   joints.push_back(std::make_unique<End>(contact::Side::left, false));
   std::vector<chain::Link> links;
   links.push_back(
       {bvp::make_collocation_arc(rod::SurfaceDensity{}, graded(elements / 2, 1.0), stages), "line", 0});
   links.push_back({bvp::make_collocation_arc(rod::KirchhoffDensity{}, mesh, stages), "tail", 1});
-  Coil coil{chain::Chain(std::move(joints), {0.0, 0.0, 1.0}, std::move(links)), {}, loads};
+  Coil coil{chain::Chain(std::move(joints), {0.0, 0.0, 1.0}, std::move(links),
+                         {.half_turn = true, .height = true, .spin = true, .slide = true, .phase = {}}),
+            {},
+            loads};
   const double contact_end = 0.5 * loads.angle - std::acos(1.0 - 0.5 / tension);
   coil.x = Eigen::VectorXd::Zero(coil.chain.ambient_size());
   *coil.chain.coordinates(coil.x, 1) = contact_end;

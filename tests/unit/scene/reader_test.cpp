@@ -187,8 +187,9 @@ BOOST_AUTO_TEST_CASE(bad_names_get_a_suggestion) {
           .find(
               "capstan.toml:12: continuation.parameter = \"load.tensio\": must be a key that a branch can be "
               "followed in, one of \"rod.length\", ") == 0u);
-  BOOST_TEST(refusal(dimensionless + "[ends]\nkind = \"free\"\n") ==
-             "capstan.toml:13: ends.kind = \"free\": must be one of \"moment_free\", \"clamped\"");
+  BOOST_TEST(
+      refusal(dimensionless + "[ends]\nkind = \"free\"\n") ==
+      "capstan.toml:13: ends.kind = \"free\": must be one of \"moment_free\", \"clamped\", \"pinned\"");
 }
 
 BOOST_AUTO_TEST_CASE(overrides_are_named_in_messages) {
@@ -198,7 +199,7 @@ BOOST_AUTO_TEST_CASE(overrides_are_named_in_messages) {
   BOOST_TEST(refusal(dimensionless, {"load.tension"}) ==
              "--set load.tension: must have the form KEY=VALUE, such as load.tension=2");
   BOOST_TEST(refusal(dimensionless, {"ends.kind=free"}) ==
-             "--set ends.kind = free: must be one of \"moment_free\", \"clamped\"");
+             "--set ends.kind = free: must be one of \"moment_free\", \"clamped\", \"pinned\"");
 }
 
 BOOST_AUTO_TEST_CASE(wholly_dimensionless_or_wholly_physical) {

@@ -38,7 +38,7 @@ Strut strut(double tension, bool clamped, int elements, int stages = 6) {
   contact::Loads loads;
   loads.tension = tension;
   loads.half_length = 1.0;
-  Strut out{Chain(std::move(joints), {-1.0, 1.0}, std::move(links)), {}, loads};
+  Strut out{Chain(std::move(joints), {-1.0, 1.0}, std::move(links), {}), {}, loads};
   out.x = VectorXd::Zero(out.chain.ambient_size());
   return out;
 }

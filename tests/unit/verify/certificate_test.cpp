@@ -1,5 +1,6 @@
 #include <boost/test/unit_test.hpp>
 #include <chrono>
+#include <nlohmann/json.hpp>
 
 #include "closed_form_rods.hpp"
 #include "windlass/verify/certificate.hpp"
