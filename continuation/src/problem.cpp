@@ -38,6 +38,10 @@ Vector Problem::dual(const Vector& a) const {
   return a * (inner(a, a) / square);
 }
 
+int Problem::breaking_index(const Vector&, const Vector&) { return -1; }
+
+std::optional<Unrestricted> Problem::unrestricted(const Vector&, const Vector&) { return std::nullopt; }
+
 int Problem::determinant_sign() { return 0; }
 
 std::vector<Vector> Problem::kernel_directions(const Vector&, const Vector&, const Matrix& kernel) {

@@ -162,6 +162,7 @@ void Walker::settle(Segment& segment, Sample& sample) {
   state_.previous_tangent = state_.tangent;
   state_.tangent = sample.tangent;
   state_.index = sample.index;
+  state_.breaking_index = sample.breaking_index;
   state_.determinant = sample.determinant;
   state_.previous_events = std::exchange(state_.events, sample.events);
   state_.path_length += sample.s;

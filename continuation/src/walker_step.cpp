@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "continuation/walker.hpp"
@@ -57,6 +58,7 @@ bool Walker::advance_once(std::string& failure) {
   Segment segment(state_.problem, options_, state_.x, state_.p, state_.tangent);
   segment.base().complete = true;
   segment.base().index = state_.index;
+  segment.base().breaking_index = state_.breaking_index;
   segment.base().determinant = state_.determinant;
   segment.base().events = state_.events;
   const double ds = step_length_.current();
@@ -103,13 +105,16 @@ bool Walker::advance_once(std::string& failure) {
   std::vector<Located> specials;
   if (options_.detect_branch_points && end->s > 0.0)
     specials = locate_branch_points(segment, segment.base(), *end);
+  std::vector<Located> breaking;
+  if (options_.detect_branch_points && end->s > 0.0)
+    breaking = locate_symmetry_breaking(segment, segment.base(), *end);
   // Where an event function vanishes the equations it belongs to may become singular with it: the branch that crosses
   // there is not of this problem's.
-  if (event)
-    std::erase_if(specials, [&](const Located& l) {
-      const double p = segment.parameter(*end);
-      return std::abs(segment.parameter(l.sample) - p) < 1e-8 * std::max(1.0, std::abs(p));
-    });
+  const auto at_the_event = [&](const Located& l) {
+    const double p = segment.parameter(*end);
+    return std::abs(segment.parameter(l.sample) - p) < 1e-8 * std::max(1.0, std::abs(p));
+  };
+  if (event) std::erase_if(specials, at_the_event), std::erase_if(breaking, at_the_event);
   if (fold) {
     // On the side branch of a pitchfork dp/ds vanishes at the branch point: that is not a fold.
     const double close_by = 1e-4 * ds + 1e-7;
@@ -118,6 +123,7 @@ bool Walker::advance_once(std::string& failure) {
     });
     if (!is_branch_point) specials.push_back(std::move(*fold));
   }
+  std::move(breaking.begin(), breaking.end(), std::back_inserter(specials));
   std::sort(specials.begin(), specials.end(), [](const Located& a, const Located& b) { return a.s < b.s; });
   for (const Located& located : specials) queue_.push_back(special(segment, located));
 
@@ -209,7 +215,7 @@ Sample* Walker::close(Segment& segment, Sample& end, Located* fold) {
 
 Point Walker::special(Segment& segment, const Located& located) {
   Point point;
-  point.problem = segment.problem()->clone();
+  point.problem = (located.problem ? located.problem : segment.problem())->clone();
   point.x = located.sample.it.x;
   point.p = located.sample.it.p;
   point.tangent = located.sample.tangent.x.size() > 0 ? located.sample.tangent : state_.tangent;

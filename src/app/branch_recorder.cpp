@@ -63,24 +63,7 @@ BranchRecorder::BranchRecorder(output::RunWriter& writer, continuation::ProblemC
       fmt::format("goes on after branch {}, point {} ({} points)", last_.branch, last_.point, points_));
 }
 
-void BranchRecorder::on_branch_start(const Branch&) {
-  in_branch_ = 0;
-  odd_ = -1;
-}
-
-void BranchRecorder::report_odd_mode(const output::BranchRow& row, const Point& point) {
-  if (special(point) || !row.index || point.index < 0) {
-    if (point.type == PointType::event) odd_ = -1;  // the contacts change, and the count with them
-    return;
-  }
-  const int odd = *row.index - point.index;
-  if (odd_ >= 0 && odd != odd_)
-    progress_.note(
-        fmt::format("an odd mode {} stability between {} and {}: model.symmetry = \"none\" follows it",
-                    odd > odd_ ? "loses" : "regains", place(odd_at_), place(row)));
-  odd_ = odd;
-  odd_at_ = row;
-}
+void BranchRecorder::on_branch_start(const Branch&) { in_branch_ = 0; }
 
 void BranchRecorder::add_eigenvalues(Solution& solution, const Point& point) {
   const auto begin = Clock::now();
@@ -119,10 +102,7 @@ void BranchRecorder::on_point(const Branch& branch, const Point& point) {
     if (point.index >= 0) add_eigenvalues(solution, point);
     // A branch that arrives at a known special point carries its label again; the first one keeps it.
     const std::string label = special(point) && labels_.insert(point.label).second ? point.label : "";
-    output::BranchRow row =
-        output::make_row(solution, branch.id + 1, ++in_branch_, label, type_name(point.type), point.ds);
-    if (problem.topology().half) report_odd_mode(row, point);
-    last_ = std::move(row);
+    last_ = output::make_row(solution, branch.id + 1, ++in_branch_, label, type_name(point.type), point.ds);
     if (!writer_.info().extra_parameter.empty()) last_.parameter = point.p(0);
     writer_.add_point(last_, solution);
     ++points_;
@@ -160,8 +140,8 @@ void BranchRecorder::on_special_point(const Branch& branch, const Point& point) 
       mode = stability::mode_of(problem, point.x, point.p, point.branch_point->null.right.col(0),
                                 contact::Parity::even);
     } else {
-      // An odd mode, which only the full chain can follow, or a zero that was bracketed and not polished: the spectrum's
-      // mode nearest to zero, an even one first where several vanish.
+      // A zero that was bracketed and not polished: the spectrum's mode nearest to zero, an even one first where several
+      // vanish.
       try {
         const auto modes =
             stability::analyse(problem, point.x, point.p, zero_modes_wanted(point), true, solver_).modes;

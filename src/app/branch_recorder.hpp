@@ -36,9 +36,6 @@ class BranchRecorder final : public continuation::DiagramObserver {
   void pause() { continuation_ += std::chrono::duration<double>(Clock::now() - resumed_).count(); }
   output::Timings timings() const;
   void add_eigenvalues(equilibrium::Solution& solution, const continuation::Point& point);
-  /// A half chain passes by the branch points of odd modes; says where one lies. Call it with the last row still that of
-  /// the point before.
-  void report_odd_mode(const output::BranchRow& row, const continuation::Point& point);
 
   output::RunWriter& writer_;
   continuation::ProblemCodec codec_;
@@ -49,8 +46,6 @@ class BranchRecorder final : public continuation::DiagramObserver {
   double continuation_ = 0.0, stability_ = 0.0,
          earlier_ = 0.0;  ///< earlier_: total of the run before it was resumed
   int points_ = 0, in_branch_ = 0, lost_ = 0;
-  int odd_ = -1;  ///< unstable directions the branch cannot follow, at the last regular point; −1: unknown
-  output::BranchRow odd_at_;  ///< that point
   bool stopped_ = false;
   std::set<std::string> labels_;
   int kernel_ = 0;  ///< zero eigenvalues at the last branch point

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/commands.hpp"
+#include "windlass/equilibrium/equilibria.hpp"
 #include "windlass/equilibrium/record.hpp"
 #include "windlass/equilibrium/start.hpp"
 #include "windlass/output/run_folder.hpp"
@@ -97,7 +98,40 @@ void print_strut(const Solution& solution, const Physical& physical, const std::
   print_quantity("shortening", solution.shortening, "");
 }
 
-void print_summary(const Solution& solution, const scene::Scene& scene) {
+nlohmann::ordered_json to_json(const equilibrium::Equilibria& found, const scene::Scene& scene) {
+  nlohmann::ordered_json json = output::to_json(found.answer, scene);
+  for (const equilibrium::StateSummary& state : found.states) {
+    nlohmann::ordered_json one;
+    if (found.answer.has_cylinder) {
+      one["R_tot"] = state.R_tot;
+      if (state.F0) one["F0"] = *state.F0;
+    } else {
+      one["end_force"] = state.end_force;
+      one["end_moment"] = state.end_moment;
+    }
+    one["energy"] = state.energy;
+    one["potential"] = state.potential;
+    one["index"] = state.index;
+    one["topology"] = state.topology;
+    json["states"].push_back(std::move(one));
+  }
+  return json;
+}
+
+/// The equilibria besides the one shown above.
+void print_others(const equilibrium::Equilibria& found) {
+  const Solution& solution = found.answer;
+  for (std::size_t k = 1; k < found.states.size(); ++k) {
+    const equilibrium::StateSummary& other = found.states[k];
+    fmt::print("  {:<12} {} = {:.8g}, energy {:.8g}, potential {:+.3g} from it, index {}, {}\n",
+               k == 1 ? "others" : "", solution.has_cylinder ? "R_tot" : "end_force",
+               solution.has_cylinder ? other.R_tot : other.end_force, other.energy,
+               other.potential - found.states[0].potential, other.index, other.topology);
+  }
+}
+
+void print_summary(const equilibrium::Equilibria& found, const scene::Scene& scene) {
+  const Solution& solution = found.answer;
   const Physical physical{scene.units};
   const std::string error = fmt::format("(relative error about {:.1e})", solution.error_estimate);
   fmt::print("{}: {}\n", scene.name, scene.title);
@@ -121,6 +155,7 @@ void print_summary(const Solution& solution, const scene::Scene& scene) {
       fmt::print("  {:<12} the rod slides off along itself: d²Π/dδ² = {:.6g} (held against it above)\n",
                  "sliding", solution.stability->sliding);
   }
+  print_others(found);
   fmt::print("  {:<12} {} Newton iterations, {} unknowns, {:.2f} ms\n", "work", solution.newton_iterations,
              solution.mesh.unknowns, 1e3 * solution.seconds_total);
 }
@@ -129,7 +164,8 @@ void print_summary(const Solution& solution, const scene::Scene& scene) {
 
 int run_solve(const SolveRequest& request) {
   petsc::ensure_session();
-  Solution solution = equilibrium::solve(request.scene);
+  equilibrium::Equilibria found = equilibrium::equilibria(request.scene);
+  Solution& solution = found.answer;
   const scene::Scene scene = equilibrium::determinate(request.scene);  // the one solved
   add_stability(solution, scene);
   if (request.save) {
@@ -144,9 +180,9 @@ int run_solve(const SolveRequest& request) {
                   {});
   }
   if (request.common.json)
-    std::printf("%s\n", output::to_json(solution, scene).dump(2).c_str());
+    std::printf("%s\n", to_json(found, scene).dump(2).c_str());
   else if (!request.common.quiet)
-    print_summary(solution, scene);
+    print_summary(found, scene);
   return done;
 }
 

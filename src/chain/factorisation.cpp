@@ -3,6 +3,7 @@
 
 #include "neutral_turn.hpp"
 #include "windlass/chain/chain.hpp"
+#include "windlass/chain/singular_matrix.hpp"
 #include "windlass/rod/quaternion.hpp"
 
 namespace windlass::chain {
@@ -225,7 +226,7 @@ void Chain::factor(const VectorXd& x, const Loads& loads, const MatrixXd& b_aske
   determinant_sign_ = negative % 2 == 0 ? 1 : -1;
   if (dense.rows() > 0) {
     const auto diagonal = dense_.matrixLU().diagonal();
-    if (diagonal.cwiseAbs().minCoeff() == 0.0) throw std::runtime_error("the chain's matrix is singular");
+    if (diagonal.cwiseAbs().minCoeff() == 0.0) throw SingularMatrix("the chain's matrix is singular");
     if ((diagonal.array() < 0.0).count() % 2 == 1) determinant_sign_ = -determinant_sign_;
     determinant_sign_ *= static_cast<int>(dense_.permutationP().determinant());
   }

@@ -53,7 +53,7 @@ std::optional<Started> attempt(const scene::Scene& scene, bool spatial, bool hal
     x = problem->refine(x, p);
     if (!half) return unfold(*problem, x, p, iterations);
     return Started{problem, x, p, iterations};
-  } catch (const std::exception&) {
+  } catch (const NoEquilibrium&) {
     return std::nullopt;
   }
 }

@@ -10,12 +10,14 @@ continuation::ProblemCodec rod_codec(const scene::Scene& scene, const std::vecto
             const RodProblem::Memory memory = rod.memory();
             return {{"chain", chain_of(rod)},
                     {"index", memory.index},
+                    {"breaking_index", memory.breaking_index},
                     {"error", memory.error},
                     {"nodal_floor", memory.nodal_floor}};
           },
           [scene, keys](const nlohmann::json& data) -> std::shared_ptr<continuation::Problem> {
             const auto rod = rebuild(scene, data.at("chain").get<std::string>(), keys);
-            rod->remember({data.at("index"), data.at("error"), data.at("nodal_floor")});
+            rod->remember(
+                {data.at("index"), data.at("breaking_index"), data.at("error"), data.at("nodal_floor")});
             return rod;
           }};
 }

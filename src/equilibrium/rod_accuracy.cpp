@@ -154,7 +154,7 @@ Vector RodProblem::refine(Vector x, const Vector& p, int rounds) {
     std::unique_ptr<chain::Chain> old = std::move(chain_);
     rebuild();
     x = chain::transfer_state(*old, *chain_, x, at);
-    if (polish(x, p) < 0) throw std::runtime_error("Newton failed after the mesh was adapted");
+    if (polish(x, p) < 0) throw NoEquilibrium("Newton failed after the mesh was adapted");
   }
   settle(x, p);
   error_estimate(x, p);

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "windlass/chain/singular_matrix.hpp"
+#include "windlass/equilibrium/start.hpp"
 #include "windlass/rod/quaternion.hpp"
 #include "windlass/scene/keys.hpp"
 
@@ -83,6 +85,7 @@ void RodProblem::rebuild() {
   finer_.reset();
   factored_x_.resize(0);
   estimated_x_.resize(0);
+  counts_ = {};
 }
 
 Loads RodProblem::loads(const Vector& p) {
@@ -139,7 +142,24 @@ int RodProblem::index(const Vector& x, const Vector& p) {
   // Where a contact carries nothing, or an arc has no length left, the second variation is not that of a rod held by
   // these contacts: the count of the last sound point stands until the event is located.
   if (index_ >= 0 && degenerate(x, at)) return index_;
-  return index_ = chain_->index(x, at, contact::Parity::even);
+  return index_ = count(x, p, contact::Parity::even);
+}
+
+int RodProblem::breaking_index(const Vector& x, const Vector& p) {
+  if (!topology_.half) return -1;
+  const Loads at = loads(p);
+  if (breaking_index_ >= 0 && degenerate(x, at)) return breaking_index_;
+  return breaking_index_ = count(x, p, contact::Parity::odd);
+}
+
+std::optional<continuation::Unrestricted> RodProblem::unrestricted(const Vector& x, const Vector& p) {
+  if (!topology_.half) return std::nullopt;
+  try {
+    const Started full = unfold(*this, x, p, 0);
+    return continuation::Unrestricted{full.problem, full.x};
+  } catch (const NoEquilibrium&) {
+    return std::nullopt;
+  }
 }
 
 bool RodProblem::degenerate(const Vector& x, const Loads& at) const {
@@ -155,12 +175,19 @@ bool RodProblem::degenerate(const Vector& x, const Loads& at) const {
   return false;
 }
 
+int RodProblem::count(const Vector& x, const Vector& p, contact::Parity parity) {
+  if (counts_.x.size() == 0 || counts_.x != x || counts_.p != p) counts_ = {x, p, {-1, -1}};
+  int& known = counts_.negative[parity == contact::Parity::even ? 0 : 1];
+  return known >= 0 ? known : known = chain_->index(x, loads(p), parity);
+}
+
 int RodProblem::total_index(const Vector& x, const Vector& p) {
-  const Loads at = loads(p);
-  if (factored_x_.size() == 0 || factored_x_ != x || factored_p_ != p)
+  const bool counted = counts_.x.size() > 0 && counts_.x == x && counts_.p == p && counts_.negative[0] >= 0 &&
+                       counts_.negative[1] >= 0;
+  if (!counted && (factored_x_.size() == 0 || factored_x_ != x || factored_p_ != p))
     factor(x, p, Eigen::MatrixXd(chain_->size(), 0), Eigen::MatrixXd(chain_->size(), 0),
            Eigen::MatrixXd(0, 0));
-  return chain_->index(x, at, contact::Parity::even) + chain_->index(x, at, contact::Parity::odd);
+  return count(x, p, contact::Parity::even) + count(x, p, contact::Parity::odd);
 }
 
 Vector RodProblem::parameter_derivative(const Vector& x, const Vector& p, Eigen::Index k) {
@@ -205,6 +232,15 @@ std::vector<double> RodProblem::joint_places(const Vector& x, const Vector& p, c
 int RodProblem::polish(Vector& x, const Vector& p, int most) {
   factored_x_.resize(0);
   if (size() == 0) return 0;  // one touch between infinite tails: nothing is unknown
+  try {
+    return newton(x, p, most);
+  } catch (const std::domain_error&) {  // a length or tension left its domain
+  } catch (const chain::SingularMatrix&) {
+  }
+  return -1;
+}
+
+int RodProblem::newton(Vector& x, const Vector& p, int most) {
   const Loads at = loads(p);
   const Eigen::MatrixXd none(chain_->size(), 0), corner(0, 0);
   double last = 1e300;
@@ -239,16 +275,18 @@ std::shared_ptr<continuation::Problem> RodProblem::clone() const {
 Vector RodProblem::fingerprint(const Vector& x, const Vector& p) {
   const Loads at = loads(p);
   const chain::Profile shape = profile(x, p);
-  double energy = 0.0, z_low = 0.0, z_high = 0.0;
+  const double copies = topology_.half ? 2.0 : 1.0;  // of the whole rod, whichever chain it is on
+  double energy = 0.0, z_low = 0.0, z_high = 0.0, contacts = 0.0;
   for (int i = 0; i < chain_->link_count(); ++i)
-    energy += chain_->link(i).arc->energy(chain_->place(x, at, i).point());
+    energy += copies * chain_->link(i).arc->energy(chain_->place(x, at, i).point());
   for (const chain::Piece& piece : shape.pieces) {
     z_low = std::min(z_low, piece.r.row(2).minCoeff());
     z_high = std::max(z_high, piece.r.row(2).maxCoeff());
   }
+  for (const chain::Contact& contact : shape.contacts) contacts += contact.joint > 0 ? copies : 1.0;
   const double tilt = std::abs(std::asin(std::clamp(rod::directors(shape.at(0.0).q)(2, 2), -1.0, 1.0)));
   Vector print(5);
-  print << target(*chain_, x, at), energy, z_high - z_low, tilt, static_cast<double>(shape.contacts.size());
+  print << target(*chain_, x, at), energy, z_high - z_low, tilt, contacts;
   return print;
 }
 

@@ -1,12 +1,16 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <continuation/branch_switch.hpp>
 #include <continuation/walker.hpp>
+#include <functional>
 
+#include "windlass/equilibrium/equilibria.hpp"
 #include "windlass/equilibrium/newton.hpp"
 #include "windlass/equilibrium/record.hpp"
-#include "windlass/equilibrium/start.hpp"
+#include "windlass/equilibrium/search.hpp"
 #include "windlass/rod/capstan.hpp"
 #include "windlass/scene/error.hpp"
 #include "windlass/scene/resolved.hpp"
@@ -37,12 +41,6 @@ Solution finish(Started& started, const std::string& reason) {
 
 bool symmetric(const scene::Scene& scene) { return scene.half_turn(); }
 
-/// Number of unstable directions of a planar state in space.
-int spatial_index(Started& planar) {
-  Started lifted = lift(*planar.problem, planar.x, planar.p, true);
-  return lifted.problem->total_index(lifted.x, lifted.p);
-}
-
 /// Least thrust at which the straight strut may bow, up to that of twice Euler's; nullopt: none, or unstable without any.
 std::optional<double> buckling_thrust(const scene::Scene& scene) {
   scene::Scene idle = scene;
@@ -61,40 +59,131 @@ std::optional<double> buckling_thrust(const scene::Scene& scene) {
   return std::nullopt;
 }
 
-Solution solve_strut(const scene::Scene& scene, const std::vector<std::string>& keys) {
-  Started rod = cold_start(scene, true, symmetric(scene), keys);
-  if (scene.ends.shortening) return finish(rod, "a strut may twist and leave the plane: Kirchhoff rod");
-  const int index = rod.problem->total_index(rod.x, rod.p);
-  if (index == 0) return finish(rod, "the straight strut is stable under this thrust");
-  const std::string unstable =
-      "the straight strut is unstable under this thrust (index " + std::to_string(index) + ")";
-  if (auto buckled = stable_neighbour(rod))
-    return finish(*buckled, unstable + "; this is the state it leaves for");
-  return finish(
-      rod, unstable + "; no stable state was found on the arms that leave it, so this is the straight one");
+/// The flat (straight) state by itself, or why there is none in contact.
+struct Flat {
+  std::optional<Started> planar, rod;  ///< planar: where the rod is a lifted planar state
+  int index = -1;                      ///< of the rod in space
+  bool no_contact = false;             ///< followed to these loads, the rod lifts off
+  std::string why;
+};
+
+Flat flat_state(const scene::Scene& scene, const std::vector<std::string>& keys) {
+  Flat flat;
+  try {
+    if (scene.has_cylinder) {
+      flat.planar = cold_start(scene, false, true, keys);
+      flat.rod = lift(*flat.planar->problem, flat.planar->x, flat.planar->p, symmetric(scene));
+    } else {
+      flat.rod = cold_start(scene, true, symmetric(scene), keys);
+    }
+    flat.index = flat.rod->problem->total_index(flat.rod->x, flat.rod->p);
+  } catch (const NoContact& none) {
+    flat.no_contact = true;
+    flat.why = none.what();
+  } catch (const NoEquilibrium& none) {
+    flat.why = none.what();
+  }
+  return flat;
 }
 
-Solution solve_automatically(const scene::Scene& scene, const std::vector<std::string>& keys) {
-  Started planar = cold_start(scene, false, true, keys);
-  const int index = spatial_index(planar);
-  if (index == 0 && symmetric(scene)) {
-    if (scene.rod.infinite() && rod::capstan::line_contact(scene.load.tension, scene.load.angle)) {
-      Solution solution = finish(planar, "");
-      solution.model = "closed_form";
-      solution.model_reason =
-          "infinite tails and a line contact: the closed form is exact, and the flat state is stable in "
-          "space";
-      return solution;
-    }
-    return finish(planar, "the flat state is stable against all perturbations of the Kirchhoff rod");
+StateSummary summary_of(const Solution& solution, const scene::Scene& scene, int index) {
+  return {solution.R_tot,
+          solution.F0,
+          solution.end_force,
+          solution.end_moment,
+          solution.energy,
+          potential(solution, scene),
+          index,
+          solution.topology};
+}
+
+Equilibria only(Solution solution, const scene::Scene& scene, int index) {
+  StateSummary summary = summary_of(solution, scene, index);
+  return {std::move(solution), {std::move(summary)}};
+}
+
+/// Is it the state of this fingerprint?
+bool is(const FoundState& state, const Vector& fingerprint) {
+  return continuation::same_fingerprint(state.fingerprint, fingerprint, same_state);
+}
+
+/// Chooses among what search() finds, the flat state among it.
+/// @param finished  the state chosen, on its rung and with the reason
+Equilibria choose(const scene::Scene& scene, const Flat& flat, const std::vector<std::string>& keys,
+                  const std::function<Solution(FoundState&)>& finished) {
+  Search found = search(scene, true, symmetric(scene), keys);
+  if (flat.rod) include(found, *flat.rod);
+  if (found.states.empty()) {
+    const std::string none = flat.why + "; nor in space, searched: " + found.searched;
+    if (flat.no_contact) throw NoContact(none);
+    throw NoEquilibrium(none);
   }
-  Started rod = lift(*planar.problem, planar.x, planar.p, symmetric(scene));
-  if (index == 0) return finish(rod, "the full chain was asked for (model.symmetry = \"none\")");
-  const std::string unstable = "the flat state is unstable in space (index " + std::to_string(index) + ")";
-  if (auto helical = stable_neighbour(rod))
-    return finish(*helical, unstable + "; this is the state it leaves for");
-  return finish(rod,
-                unstable + "; no stable state was found on the arms that leave it, so this is the flat one");
+  FoundState& best = found.states.front();
+  Solution solution = finished(best);
+  if (!best.stable()) {
+    solution.model_reason += fmt::format("; no stable state was found (searched: {}), this one has index {}",
+                                         found.searched, best.index);
+  } else if (found.states.size() > 1) {
+    const auto stable = std::count_if(found.states.begin(), found.states.end(),
+                                      [](const FoundState& state) { return state.stable(); });
+    solution.model_reason +=
+        fmt::format("; of {} equilibria found, {} of them stable, the stable one of lowest potential",
+                    found.states.size(), stable);
+  }
+  Equilibria out = only(std::move(solution), scene, best.index);
+  for (std::size_t k = 1; k < found.states.size(); ++k) {
+    FoundState& other = found.states[k];
+    out.states.push_back(summary_of(record(*other.at.problem, other.at.x, other.at.p), scene, other.index));
+  }
+  return out;
+}
+
+Equilibria solve_strut(const scene::Scene& scene, const std::vector<std::string>& keys) {
+  Flat flat = flat_state(scene, keys);
+  if (scene.ends.shortening)
+    return choose(scene, flat, keys, [](FoundState& best) {
+      return finish(best.at, "a strut may twist and leave the plane: Kirchhoff rod");
+    });
+  if (flat.index == 0)
+    return only(finish(*flat.rod, "the straight strut is stable under this thrust"), scene, 0);
+  return choose(scene, flat, keys, [&](FoundState& best) {
+    return finish(best.at,
+                  fmt::format("the straight strut is unstable under this thrust (index {})", flat.index));
+  });
+}
+
+/// A coil of up to half a turn has one state, the flat one; a longer one may leave the plane.
+bool may_leave_plane(const scene::Scene& scene) { return scene.load.angle > M_PI; }
+
+Solution solve_flat(const scene::Scene& scene, Started& planar) {
+  if (scene.rod.infinite() && rod::capstan::line_contact(scene.load.tension, scene.load.angle)) {
+    Solution solution = finish(planar, "");
+    solution.model = "closed_form";
+    solution.model_reason =
+        "infinite tails and a line contact: the closed form is exact, and the flat state is stable in space";
+    return solution;
+  }
+  return finish(planar, "the flat state is stable against all perturbations of the Kirchhoff rod");
+}
+
+/// @param kirchhoff  the rung is asked for: the flat state, too, is given on it
+Equilibria solve_capstan(const scene::Scene& scene, const std::vector<std::string>& keys, bool kirchhoff) {
+  const bool half = symmetric(scene);
+  Flat flat = flat_state(scene, keys);
+  const Vector print = flat.rod ? flat.rod->problem->fingerprint(flat.rod->x, flat.rod->p) : Vector();
+  const auto finished = [&](FoundState& best) {
+    if (kirchhoff) return finish(best.at, "asked for");
+    if (flat.index == 0 && half && is(best, print)) return solve_flat(scene, *flat.planar);
+    if (!half) return finish(best.at, "the full chain was asked for (model.symmetry = \"none\")");
+    if (!flat.rod) return finish(best.at, "there is no flat state in contact: " + flat.why);
+    if (flat.index == 0) return finish(best.at, "the flat state is stable, too, but lies higher");
+    return finish(best.at, fmt::format("the flat state is unstable in space (index {})", flat.index));
+  };
+  if (flat.index == 0 && !may_leave_plane(scene)) {
+    FoundState alone{*flat.rod, 0, 0.0, print};
+    return only(finished(alone), scene, 0);
+  }
+  return choose(scene, flat, keys, finished);
 }
 
 }  // namespace
@@ -117,47 +206,52 @@ scene::Scene determinate(scene::Scene scene) {
   return scene;
 }
 
-Solution solve(const scene::Scene& asked) {
-  const scene::Scene scene = determinate(asked);
-  const auto begin = std::chrono::steady_clock::now();
+namespace {
+
+/// On the rung of the model that is asked for.
+Equilibria on_rung(const scene::Scene& scene) {
   const std::vector<std::string> keys{load_key(scene)};
-  Solution solution;
+  const bool closed_form = scene.model.kind == ModelKind::closed_form;
   switch (scene.model.kind) {
-    case ModelKind::closed_form: {
+    case ModelKind::kirchhoff:
+    case ModelKind::automatic:
+      return scene.has_cylinder ? solve_capstan(scene, keys, scene.model.kind == ModelKind::kirchhoff)
+                                : solve_strut(scene, keys);
+    case ModelKind::closed_form:
       if (!scene.has_cylinder || !scene.rod.infinite())
         throw InputError("model.kind = \"closed_form\": needs a cylinder and rod.length = \"inf\"");
       if (!rod::capstan::line_contact(scene.load.tension, scene.load.angle))
         throw NoEquilibrium(
             "the closed form has no line contact at this tension; model.kind = \"planar\" goes on");
-      Started planar = cold_start(scene, false, true, keys);
-      solution = finish(planar, "asked for");
-      solution.model = "closed_form";
       break;
-    }
-    case ModelKind::planar: {
-      Started planar = cold_start(scene, false, symmetric(scene), keys);
-      solution = finish(planar, "asked for");
-      break;
-    }
-    case ModelKind::kirchhoff: {
-      Started rod = cold_start(scene, true, symmetric(scene), keys);
-      solution = finish(rod, "asked for");
-      break;
-    }
-    case ModelKind::automatic:
-      solution = scene.has_cylinder ? solve_automatically(scene, keys) : solve_strut(scene, keys);
+    case ModelKind::planar:
       break;
   }
+  Started planar = cold_start(scene, false, closed_form || symmetric(scene), keys);
+  const int index = planar.problem->total_index(planar.x, planar.p);
+  Equilibria out = only(finish(planar, "asked for"), scene, index);
+  if (closed_form) out.answer.model = "closed_form";
+  return out;
+}
+
+}  // namespace
+
+Equilibria equilibria(const scene::Scene& asked) {
+  const scene::Scene scene = determinate(asked);
+  const auto begin = std::chrono::steady_clock::now();
+  Equilibria out = on_rung(scene);
   if (thrust_undetermined(asked)) {
     const std::optional<double> most = buckling_thrust(scene);
-    solution.model_reason = fmt::format(
+    out.answer.model_reason = fmt::format(
         "without shortening an inextensible strut is straight and {}; shown is the one without thrust",
         most ? fmt::format("carries any thrust up to its buckling load {:.12g}", *most)
              : "already unstable without thrust, by its twist");
   }
-  solution.seconds_solve = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  solution.seconds_total = solution.seconds_solve;
-  return solution;
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+  out.answer.seconds_total = out.answer.seconds_solve = taken.count();
+  return out;
 }
+
+Solution solve(const scene::Scene& scene) { return equilibria(scene).answer; }
 
 }  // namespace windlass::equilibrium

@@ -9,6 +9,17 @@ using namespace windlass::test;
 namespace capstan = windlass::rod::capstan;
 namespace fs = std::filesystem;
 
+namespace {
+
+nlohmann::json answer(const std::string& tension, const Words& more) {
+  const Outcome outcome =
+      run_program(Words{"solve", coil(), "--set", "load.tension=" + tension, "--json"} + more);
+  BOOST_REQUIRE_MESSAGE(outcome.status == 0, tension << ": " << outcome.err);
+  return nlohmann::json::parse(outcome.out);
+}
+
+}  // namespace
+
 BOOST_AUTO_TEST_SUITE(solve)
 
 BOOST_AUTO_TEST_CASE(solve_prints_what_the_contract_names) {
@@ -81,6 +92,44 @@ BOOST_AUTO_TEST_CASE(no_equilibrium_in_contact) {
   BOOST_TEST(contains(outcome.err, "windlass: no equilibrium in contact exists at load.tension = 0.2"),
              outcome.err);
   BOOST_TEST(contains(outcome.err, "lifts off the cylinder at 0.2839"), outcome.err);
+}
+
+// The flat coil has lifted off at T = 0.2839 or is unstable, the helix is there all the way down.
+BOOST_AUTO_TEST_CASE(the_stable_helix_answers_whatever_the_flat_coil_does) {
+  double last = 0.0;
+  for (const char* tension : {"0.1", "0.2", "0.3", "0.48", "0.49", "0.495", "0.5", "0.505", "0.51", "0.52"}) {
+    const auto json = answer(tension, {});
+    BOOST_TEST(json["stability"]["index"] == 0, tension);
+    BOOST_TEST(json["z_span"].get<double>() > 0.1, tension);
+    BOOST_TEST(json["R_tot"].get<double>() > last, tension);  // one branch, on which the force rises with T
+    last = json["R_tot"];
+  }
+  // Known from an independent minimisation of a discrete rod, good to its mesh.
+  BOOST_TEST(relative(answer("0.1", {})["R_tot"], 0.6166) < 1e-3);
+}
+
+BOOST_AUTO_TEST_CASE(every_rung_in_space_has_the_same_answer) {
+  const double force = answer("0.5", {})["R_tot"];
+  for (const char* setting : {"model.kind=kirchhoff", "model.symmetry=none"}) {
+    const auto json = answer("0.5", {"--set", setting});
+    BOOST_TEST(json["stability"]["index"] == 0, setting);
+    BOOST_TEST(relative(json["R_tot"], force) < 1e-7, setting);  // meshes to a tolerance of 1e-8
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_other_equilibria_are_listed) {
+  const auto json = answer("0.8", {});
+  const auto& states = json["states"];
+  BOOST_TEST_REQUIRE(states.size() >= 2u);
+  BOOST_TEST(states[0]["R_tot"] == json["R_tot"]);
+  BOOST_TEST(states[0]["energy"] == json["energy"]);
+  BOOST_TEST(states[0]["index"] == 0);
+  bool flat = false;
+  for (const auto& state : states) {
+    flat = flat || relative(state["R_tot"], capstan::total_force(0.8, full_turn)) < 1e-6;
+    BOOST_TEST(state["potential"].get<double>() >= states[0]["potential"].get<double>());
+  }
+  BOOST_TEST(flat);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "support/coil_scene.hpp"
-#include "windlass/equilibrium/start.hpp"
+#include "windlass/equilibrium/search.hpp"
 
 namespace {
 
@@ -73,10 +73,9 @@ BOOST_AUTO_TEST_CASE(it_bounds_the_change_under_refinement_within_a_factor_of_te
           stages, "flat, clamped");
     check(equilibrium::cold_start(strut(0.3, 0.0), true, true, shortening), stages, "strut");
     check(equilibrium::cold_start(strut(0.3, M_PI), true, true, shortening), stages, "twisted strut");
-    Started flat = equilibrium::cold_start(test::coil_scene(0.9), true, true, tension);
-    const auto helix = equilibrium::stable_neighbour(flat);
-    BOOST_TEST_REQUIRE(helix.has_value());
-    check(*helix, stages, "helix");
+    const auto found = equilibrium::search(test::coil_scene(0.9), true, true, tension);
+    BOOST_TEST_REQUIRE(found.stable() != nullptr);
+    check(found.stable()->at, stages, "helix");
   }
 }
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "windlass/equilibrium/record.hpp"
-#include "windlass/equilibrium/start.hpp"
+#include "windlass/equilibrium/search.hpp"
 #include "windlass/rod/quaternion.hpp"
 
 namespace {
@@ -25,10 +25,9 @@ scene::Scene coil(double tension, double turns) {
 
 /// The stable helical state of the scene.
 Started helical(const scene::Scene& scene) {
-  Started flat = equilibrium::cold_start(scene, true, true, {"load.tension"});
-  auto found = equilibrium::stable_neighbour(flat);
-  BOOST_TEST_REQUIRE(found.has_value());
-  return *found;
+  const equilibrium::Search found = equilibrium::search(scene, true, true, {"load.tension"});
+  BOOST_TEST_REQUIRE(found.stable() != nullptr);
+  return found.stable()->at;
 }
 
 }  // namespace

@@ -15,10 +15,11 @@ namespace continuation {
 /// A special point located on a segment.
 struct Located {
   PointType type = PointType::fold;
-  double s = 0.0;             ///< path length on the segment
-  Sample sample;              ///< the solution there
-  double lo = 0.0, hi = 0.0;  ///< bracket in path length
-  double precision = 0.0;     ///< in the varied parameter
+  double s = 0.0;                    ///< path length on the segment
+  Sample sample;                     ///< the solution there
+  std::shared_ptr<Problem> problem;  ///< the sample's, where it is not the segment's
+  double lo = 0.0, hi = 0.0;         ///< bracket in path length
+  double precision = 0.0;            ///< in the varied parameter
   int index = -1, index_after = -1;
   std::size_t which = 0;  ///< event: its place in events()
   std::string event;
@@ -46,5 +47,11 @@ std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, co
 /// (corrected for folds, det [J F_p; t] where the index is unknown) until the reduced equations find the
 /// point in it.
 std::vector<Located> locate_branch_points(Segment& segment, const Sample& lo, const Sample& hi);
+
+/// The branch points between two completed samples whose kernel breaks the symmetry the segment's problem is
+/// restricted to: its own equations are regular there. The interval is halved on the change of the breaking
+/// index; in it the unrestricted problem follows the same branch, and the point is located there, where it is
+/// an ordinary branch point with its arms.
+std::vector<Located> locate_symmetry_breaking(Segment& segment, const Sample& lo, const Sample& hi);
 
 }  // namespace continuation

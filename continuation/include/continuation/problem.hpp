@@ -25,6 +25,12 @@ struct Transition {
   bool silent = false;  ///< only the description changes (an origin moves on): no point of the branch
 };
 
+/// A solution of a problem posed on symmetric states, in the problem without that restriction.
+struct Unrestricted {
+  std::shared_ptr<Problem> problem;
+  Vector x;
+};
+
 /// A scalar that must keep its sign along a regular branch.
 struct EventFunction {
   std::string name;  ///< e.g. "pressure", "force touch 2"; unique within a problem
@@ -68,6 +74,15 @@ class Problem {
   /// made there. Problems that are not gradients return the number of negative real eigenvalues of J, or -1
   /// if unknown.
   virtual int index(const Vector& x, const Vector& p) = 0;
+
+  /// Where F is posed on the symmetric states of a larger problem only (half of a body that is its own mirror
+  /// image): negative directions of the larger problem's second variation that break the symmetry, which index()
+  /// does not count and F does not see. Called after index() at the same point; -1: no such restriction, or
+  /// unknown (the default).
+  virtual int breaking_index(const Vector& x, const Vector& p);
+
+  /// The solution x in the larger problem; nullopt where there is none, or it cannot be found.
+  virtual std::optional<Unrestricted> unrestricted(const Vector& x, const Vector& p);
 
   /// ∂F/∂p_k; shape n. The default is a central difference with step cbrt(eps)·max(1, |p_k|).
   virtual Vector parameter_derivative(const Vector& x, const Vector& p, Eigen::Index k);

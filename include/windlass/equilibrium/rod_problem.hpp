@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <continuation/problem.hpp>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,12 @@ namespace windlass::equilibrium {
 
 using chain::Topology;
 using continuation::Vector;
+
+/// No equilibrium of the asked kind exists or was found; the message says which and why.
+class NoEquilibrium : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// Loads of a scene, and the rod it describes.
 contact::Loads loads_of(const scene::Scene& scene);
@@ -37,6 +45,10 @@ class RodProblem final : public continuation::Problem {
   /// Negative directions among those this chain can follow: a half chain counts even variations only, since its own
   /// equations stay regular where an odd mode becomes unstable. Reads the last factorisation.
   int index(const Vector& x, const Vector& p) override;
+  /// Of a half chain: negative odd variations, which break the half-turn. Reads the last factorisation, after index().
+  int breaking_index(const Vector& x, const Vector& p) override;
+  /// The full chain of a half chain's state.
+  std::optional<continuation::Unrestricted> unrestricted(const Vector& x, const Vector& p) override;
   /// Negative directions of the whole rod, both parities. Factors anew unless the last factorisation was made here.
   int total_index(const Vector& x, const Vector& p);
   int determinant_sign() override { return chain_->determinant_sign(); }
@@ -55,9 +67,10 @@ class RodProblem final : public continuation::Problem {
   /// Asked again for the same state it answers from memory.
   double error_estimate(const Vector& x, const Vector& p);
   /// Remeshes until error_estimate() is below the scene's tolerance, or `rounds` are used; returns the new state.
-  /// @throws std::runtime_error if Newton fails on a refined mesh
+  /// @throws NoEquilibrium if Newton fails on a refined mesh
   Vector refine(Vector x, const Vector& p, int rounds = 6);
-  /// Newton at fixed p on the bare chain. @returns iterations used, or −1
+  /// Newton at fixed p on the bare chain.
+  /// @returns iterations used, or −1: no convergence, a singular matrix, or an iterate out of the domain
   int polish(Vector& x, const Vector& p, int most = 25);
   /// Lets a full chain slide along itself until nothing holds it: Newton in the gauge's place c for λ(c) = 0, which stays
   /// well conditioned where sliding costs next to nothing. Done when λ is below 1e-10 of the pulls.
@@ -82,12 +95,13 @@ class RodProblem final : public continuation::Problem {
   double last_error() const { return last_error_; }
   /// What earlier calls leave behind for later ones; a copy needs it to answer as this problem would.
   struct Memory {
-    int index = -1;
+    int index = -1, breaking_index = -1;
     double error = 0.0, nodal_floor = 0.0;
   };
-  Memory memory() const { return {index_, last_error_, nodal_floor_}; }
+  Memory memory() const { return {index_, breaking_index_, last_error_, nodal_floor_}; }
   void remember(const Memory& memory) {
     index_ = memory.index;
+    breaking_index_ = memory.breaking_index;
     last_error_ = memory.error;
     nodal_floor_ = memory.nodal_floor;
   }
@@ -97,6 +111,9 @@ class RodProblem final : public continuation::Problem {
 
  private:
   void rebuild();
+  /// Negative directions of one parity; counted once a state. The last factorisation, if it was not, was made there.
+  int count(const Vector& x, const Vector& p, contact::Parity parity);
+  int newton(Vector& x, const Vector& p, int most);
   bool degenerate(const Vector& x, const contact::Loads& at) const;
   /// Errors divided by what is allowed: of the target by the tolerance, of the nodes by the certificate's level.
   double excess(const Vector& x, const Vector& p);
@@ -117,11 +134,15 @@ class RodProblem final : public continuation::Problem {
   std::vector<double contact::Loads::*> fields_;  ///< where each parameter lives; null: rebuilds the rod
   std::unique_ptr<chain::Chain> chain_, finer_;   ///< finer_: one more stage, for the error estimate
   Vector factored_x_, factored_p_;                ///< where chain_ was factored last; empty: unknown
-  int index_ = -1;                                ///< last count at a sound point
-  double last_error_ = 0.0;                       ///< relative, of the target
-  double nodal_error_ = 0.0;                      ///< of frames and places at element ends
-  double nodal_floor_ = 0.0;                      ///< what refinement did not reduce: rounding
-  Vector estimated_x_, estimated_p_;              ///< the state the two belong to
+  struct Counts {
+    Vector x, p;                             ///< where; empty: nowhere
+    std::array<int, 2> negative = {-1, -1};  ///< even, odd; −1: not counted
+  } counts_;
+  int index_ = -1, breaking_index_ = -1;  ///< last counts at a sound point
+  double last_error_ = 0.0;               ///< relative, of the target
+  double nodal_error_ = 0.0;              ///< of frames and places at element ends
+  double nodal_floor_ = 0.0;              ///< what refinement did not reduce: rounding
+  Vector estimated_x_, estimated_p_;      ///< the state the two belong to
 };
 
 }  // namespace windlass::equilibrium

@@ -8,12 +8,6 @@
 /// From a scene to a first equilibrium.
 namespace windlass::equilibrium {
 
-/// No equilibrium of the asked kind exists or was found; the message says which and why.
-class NoEquilibrium : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 /// There is no equilibrium in contact: followed to the scene's loads, the rod lifts off on the way.
 class NoContact : public NoEquilibrium {
  public:
@@ -56,10 +50,6 @@ void choose_tails(std::vector<chain::ArcMesh>& meshes, const Topology& topology,
 /// @throws NoEquilibrium
 std::optional<Started> with_meshed_tails(RodProblem& problem, const Vector& x, const Vector& p);
 
-/// A stable state near an unstable flat (straight) one: found on the arms of the branch points met on the way from a load
-/// at which that state is stable: a higher tension, or no thrust. nullopt if there is none.
-std::optional<Started> stable_neighbour(Started& unstable);
-
 /// The scene key of the load that is given: load.tension, or for struts ends.shortening or load.thrust.
 std::string load_key(const scene::Scene& scene);
 
@@ -67,8 +57,7 @@ std::string load_key(const scene::Scene& scene);
 /// buckling load). Such a scene becomes the one under no thrust; any other is returned as it is.
 scene::Scene determinate(scene::Scene scene);
 
-/// `solve`: climbs the rungs closed form, planar, Kirchhoff half, Kirchhoff full as far as the scene needs; the result
-/// names the rung and the reason. @throws NoEquilibrium
+/// equilibria() without the others. @throws NoEquilibrium
 Solution solve(const scene::Scene& scene);
 
 }  // namespace windlass::equilibrium

@@ -1,0 +1,101 @@
+// Branch points that a problem posed on symmetric states passes by: bracketed by its count of the directions
+// that break the symmetry, located in the problem without the restriction.
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "continuation/detect.hpp"
+
+namespace continuation {
+namespace {
+
+/// The piece of the branch between two samples, on the unrestricted problem.
+struct Piece {
+  std::shared_ptr<Problem> problem;
+  std::vector<Located> found;
+};
+
+std::optional<Piece> in_the_large(Segment& segment, const Sample& lo, const Sample& hi, std::string& why) {
+  const double from = segment.parameter(lo), to = segment.parameter(hi);
+  try {
+    const std::optional<Unrestricted> start = segment.problem()->unrestricted(lo.it.x, lo.it.p);
+    if (!start) return why = "the state was not found on the unrestricted problem", std::nullopt;
+    Tangent tangent =
+        first_tangent(*start->problem, start->x, lo.it.p, segment.options(), to < from ? -1 : 1);
+    if (tangent.p == 0.0) return why = "the parameter stands still", std::nullopt;
+    const double length = std::abs((to - from) / tangent.p);
+    Segment large(start->problem, segment.options(), start->x, lo.it.p, std::move(tangent));
+    Sample* base = large.at(0.0, true);
+    const Sample* beyond = base ? large.at(length, false) : nullptr;
+    const Sample* end = beyond ? large.at_parameter(to, *base, *beyond, true) : nullptr;
+    if (!end) return why = large.failure(), std::nullopt;
+    return Piece{start->problem, locate_branch_points(large, *base, *end)};
+  } catch (const std::domain_error& error) {
+    why = error.what();
+  } catch (const std::runtime_error& error) {
+    why = error.what();
+  }
+  return std::nullopt;
+}
+
+/// Adds what the piece holds, placed on the segment; false if nothing in it was polished.
+bool add(Segment& segment, const Sample& lo, const Sample& hi, Piece piece, std::vector<Located>& found) {
+  const double from = segment.parameter(lo), to = segment.parameter(hi);
+  std::erase_if(piece.found, [](const Located& located) { return !located.branch_point; });
+  for (Located& located : piece.found) {
+    const double part = std::clamp((segment.parameter(located.sample) - from) / (to - from), 0.0, 1.0);
+    located.s = lo.s + part * (hi.s - lo.s);
+    located.lo = lo.s;
+    located.hi = hi.s;
+    located.problem = piece.problem;
+    found.push_back(std::move(located));
+  }
+  return !piece.found.empty();
+}
+
+Located bracketed(Segment& segment, const Sample& lo, const Sample& hi, const std::string& why) {
+  Located located;
+  located.type = PointType::branch_point;
+  located.s = 0.5 * (lo.s + hi.s);
+  located.lo = lo.s;
+  located.hi = hi.s;
+  located.sample = lo;
+  located.precision = std::abs(segment.parameter(hi) - segment.parameter(lo));
+  located.index = lo.index;
+  located.index_after = hi.index;
+  located.multiplicity = std::abs(hi.breaking_index - lo.breaking_index);
+  located.note = "not polished: " + (why.empty() ? segment.failure() : why);
+  return located;
+}
+
+void search(Segment& segment, const Sample& lo, const Sample& hi, int depth, std::vector<Located>& found) {
+  if (lo.breaking_index < 0 || hi.breaking_index < 0 || lo.breaking_index == hi.breaking_index) return;
+  // The unrestricted problem costs a solve of twice the size to enter: halved first, where that costs two
+  // factorisations, so that Newton's method and the kernel start close, and no fold or other branch point is near.
+  constexpr int first = 4, between = 4;
+  const bool alone = lo.index == hi.index && lo.tangent.p * hi.tangent.p > 0.0;
+  std::string why;
+  if (depth >= first && (depth - first) % between == 0 && alone) {
+    std::optional<Piece> piece = in_the_large(segment, lo, hi, why);
+    if (piece && add(segment, lo, hi, std::move(*piece), found)) return;
+  }
+  const double smallest =
+      segment.options().location_tolerance * std::max(1.0, std::abs(segment.parameter(segment.base())));
+  const Sample* middle = nullptr;
+  if (hi.s - lo.s > smallest && depth < 60) middle = segment.at(0.5 * (lo.s + hi.s), true);
+  if (!middle) return found.push_back(bracketed(segment, lo, hi, why));
+  search(segment, lo, *middle, depth + 1, found);
+  search(segment, *middle, hi, depth + 1, found);
+  // Halving made the change vanish: the count at one end was roundoff close to an eigenvalue's touch.
+}
+
+}  // namespace
+
+std::vector<Located> locate_symmetry_breaking(Segment& segment, const Sample& lo, const Sample& hi) {
+  std::vector<Located> found;
+  search(segment, lo, hi, 0, found);
+  return found;
+}
+
+}  // namespace continuation

@@ -1,0 +1,120 @@
+#include "windlass/equilibrium/search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "harvest.hpp"
+#include "windlass/equilibrium/equilibria.hpp"
+#include "windlass/equilibrium/record.hpp"
+#include "windlass/scene/error.hpp"
+#include "windlass/scene/keys.hpp"
+
+namespace windlass::equilibrium {
+
+namespace {
+
+/// Where the diagram starts, and how far beyond the goal it goes: arms that leave beyond may come back.
+struct Range {
+  double from = 0.0, beyond = 0.0;
+};
+
+/// Loads at which the flat (straight) state may still be stable, next one first: higher tensions, or less compression.
+std::vector<Range> ranges(const scene::Scene& scene, double goal) {
+  constexpr double as_far_again = 0.5;
+  if (!scene.has_cylinder) {
+    if (!scene.ends.shortening) return {{0.0, goal + as_far_again * std::abs(goal)}};
+    constexpr double slight = 0.01;
+    std::vector<Range> out;
+    for (const double from : {slight, 0.1 * slight})
+      if (from < goal) out.push_back({from, goal + as_far_again * std::min(goal, 0.2)});
+    return out;
+  }
+  std::vector<Range> out;
+  for (double factor = 1.5; factor < 400.0; factor *= 1.7)
+    out.push_back({goal * factor, goal * as_far_again});
+  return out;
+}
+
+/// The state at the start of a range: flat (straight) and stable.
+std::optional<Started> calm_state(scene::Scene scene, double load, bool spatial,
+                                  const std::vector<std::string>& keys) {
+  scene::set_parameter(scene, load_key(scene), load);
+  try {
+    Started start = cold_start(scene, spatial, true, keys);
+    if (start.problem->total_index(start.x, start.p) > 0) return std::nullopt;
+    return start;
+  } catch (const NoEquilibrium&) {
+  } catch (const scene::SceneError&) {  // under a higher tension the contact arc is longer than the rod
+  }
+  return std::nullopt;
+}
+
+continuation::Options options_of(const Range& range) {
+  continuation::Options options;
+  options.target = range.beyond;
+  options.direction = range.beyond < range.from ? -1 : 1;
+  options.lower = std::min(range.from, range.beyond);
+  options.upper = std::max(range.from, range.beyond);
+  options.parameter_scale = std::clamp(0.2 * (options.upper - options.lower), 0.2, 1e3);
+  options.newton_tolerance = 1e-9;
+  options.max_points = 600;
+  return options;
+}
+
+}  // namespace
+
+double potential(const Solution& at, const scene::Scene& scene) {
+  const ArcRecord &first = at.arcs.front(), &last = at.arcs.back();
+  if (!at.has_cylinder)
+    return at.energy -
+           (scene.ends.shortening ? 0.0 : scene.load.thrust.value_or(0.0) * at.shortening * scene.rod.length);
+  // The force at an end is the pull there.
+  const double length = last.s(last.s.size() - 1) - first.s(0);
+  return at.energy + at.T * length - last.n.rightCols<1>().dot(last.r.rightCols<1>()) +
+         first.n.col(0).dot(first.r.col(0));
+}
+
+void include(Search& search, Started at) {
+  Vector fingerprint = at.problem->fingerprint(at.x, at.p);
+  for (const FoundState& known : search.states)
+    if (continuation::same_fingerprint(known.fingerprint, fingerprint, same_state)) return;
+  at.problem->error_estimate(at.x, at.p);
+  const double potential =
+      equilibrium::potential(record(*at.problem, at.x, at.p), at.problem->scene_at(at.p));
+  const int index = at.problem->total_index(at.x, at.p);
+  FoundState state{std::move(at), index, potential, std::move(fingerprint)};
+  const auto before = [](const FoundState& a, const FoundState& b) {
+    return a.stable() != b.stable() ? a.stable() : a.potential < b.potential;
+  };
+  search.states.insert(std::upper_bound(search.states.begin(), search.states.end(), state, before),
+                       std::move(state));
+}
+
+Search search(const scene::Scene& scene, bool spatial, bool half, const std::vector<std::string>& keys) {
+  const std::string key = load_key(scene);
+  const double goal = scene::get_parameter(scene, key);
+  Search found;
+  for (const Range& range : ranges(scene, goal)) {
+    const std::optional<Started> start = calm_state(scene, range.from, spatial, keys);
+    if (!start) continue;
+    const continuation::Options options = options_of(range);
+    continuation::DiagramOptions limits;
+    limits.max_branches = 24;
+    Harvest harvest(goal, options);
+    continuation::trace_diagram(start->problem, start->x, start->p, options, limits, harvest);
+    for (Started& state : harvest.states()) {
+      if (!half && state.problem->topology().half)
+        state = unfold(*state.problem, state.x, state.p, state.newton_iterations);
+      include(found, std::move(state));
+    }
+    found.searched = fmt::format("{} branches, {} points, of the diagram from {} = {:.4g} to {:.4g}",
+                                 harvest.branches(), harvest.points(), key, range.from, range.beyond);
+    break;
+  }
+  if (found.searched.empty()) found.searched = "no load was found at which the flat state is stable";
+  return found;
+}
+
+}  // namespace windlass::equilibrium
