@@ -233,14 +233,14 @@ int RodProblem::polish(Vector& x, const Vector& p, int most) {
   factored_x_.resize(0);
   if (size() == 0) return 0;  // one touch between infinite tails: nothing is unknown
   try {
-    return newton(x, p, most);
+    return iterate(x, p, most);
   } catch (const std::domain_error&) {  // a length or tension left its domain
   } catch (const chain::SingularMatrix&) {
   }
   return -1;
 }
 
-int RodProblem::newton(Vector& x, const Vector& p, int most) {
+int RodProblem::iterate(Vector& x, const Vector& p, int most) {
   const Loads at = loads(p);
   const Eigen::MatrixXd none(chain_->size(), 0), corner(0, 0);
   double last = 1e300;

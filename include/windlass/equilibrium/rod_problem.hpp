@@ -113,7 +113,7 @@ class RodProblem final : public continuation::Problem {
   void rebuild();
   /// Negative directions of one parity; counted once a state. The last factorisation, if it was not, was made there.
   int count(const Vector& x, const Vector& p, contact::Parity parity);
-  int newton(Vector& x, const Vector& p, int most);
+  int iterate(Vector& x, const Vector& p, int most);  ///< polish(), which may throw
   bool degenerate(const Vector& x, const contact::Loads& at) const;
   /// Errors divided by what is allowed: of the target by the tolerance, of the nodes by the certificate's level.
   double excess(const Vector& x, const Vector& p);
