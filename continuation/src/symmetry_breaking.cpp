@@ -69,8 +69,35 @@ Located bracketed(Segment& segment, const Sample& lo, const Sample& hi, const st
   return located;
 }
 
-void search(Segment& segment, const Sample& lo, const Sample& hi, int depth, std::vector<Located>& found) {
+/// A branch point of the restricted problem inside the bracket, and samples on both sides as close as Newton's method goes.
+struct Together {
+  const Located* point = nullptr;
+  const Sample *below = nullptr, *above = nullptr;
+};
+
+Together together(Segment& segment, const Sample& lo, const Sample& hi,
+                  const std::vector<Located>& restricted) {
+  const double smallest = 1e-6 * std::max(1.0, std::abs(segment.parameter(segment.base())));
+  for (const Located& point : restricted) {
+    const double close = std::max(smallest, 100.0 * point.precision);
+    if (point.s - close <= lo.s || point.s + close >= hi.s) continue;
+    const Sample* below = segment.at(point.s - close, true);
+    const Sample* above = below ? segment.at(point.s + close, true) : nullptr;
+    if (above) return {&point, below, above};
+  }
+  return {};
+}
+
+void search(Segment& segment, const Sample& lo, const Sample& hi, int depth,
+            const std::vector<Located>& restricted, std::vector<Located>& found) {
   if (lo.breaking_index < 0 || hi.breaking_index < 0 || lo.breaking_index == hi.breaking_index) return;
+  if (const Together one = together(segment, lo, hi, restricted); one.point) {
+    // Modes of both kinds that come in at once are turned into each other by a symmetry of the problem, as buckling in
+    // all planes of an isotropic rod: one point, and the arms that keep the restriction stand for all.
+    search(segment, lo, *one.below, depth + 1, restricted, found);
+    search(segment, *one.above, hi, depth + 1, restricted, found);
+    return;
+  }
   // The unrestricted problem costs a solve of twice the size to enter: halved first, where that costs two
   // factorisations, so that Newton's method and the kernel start close, and no fold or other branch point is near.
   constexpr int first = 4, between = 4;
@@ -85,16 +112,17 @@ void search(Segment& segment, const Sample& lo, const Sample& hi, int depth, std
   const Sample* middle = nullptr;
   if (hi.s - lo.s > smallest && depth < 60) middle = segment.at(0.5 * (lo.s + hi.s), true);
   if (!middle) return found.push_back(bracketed(segment, lo, hi, why));
-  search(segment, lo, *middle, depth + 1, found);
-  search(segment, *middle, hi, depth + 1, found);
+  search(segment, lo, *middle, depth + 1, restricted, found);
+  search(segment, *middle, hi, depth + 1, restricted, found);
   // Halving made the change vanish: the count at one end was roundoff close to an eigenvalue's touch.
 }
 
 }  // namespace
 
-std::vector<Located> locate_symmetry_breaking(Segment& segment, const Sample& lo, const Sample& hi) {
+std::vector<Located> locate_symmetry_breaking(Segment& segment, const Sample& lo, const Sample& hi,
+                                              const std::vector<Located>& restricted) {
   std::vector<Located> found;
-  search(segment, lo, hi, 0, found);
+  search(segment, lo, hi, 0, restricted, found);
   return found;
 }
 

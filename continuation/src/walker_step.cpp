@@ -107,7 +107,7 @@ bool Walker::advance_once(std::string& failure) {
     specials = locate_branch_points(segment, segment.base(), *end);
   std::vector<Located> breaking;
   if (options_.detect_branch_points && end->s > 0.0)
-    breaking = locate_symmetry_breaking(segment, segment.base(), *end);
+    breaking = locate_symmetry_breaking(segment, segment.base(), *end, specials);
   // Where an event function vanishes the equations it belongs to may become singular with it: the branch that crosses
   // there is not of this problem's.
   const auto at_the_event = [&](const Located& l) {

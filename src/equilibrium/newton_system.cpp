@@ -195,10 +195,14 @@ bool NewtonSolver::System::accepted() const {
 }
 
 bool NewtonSolver::System::nothing_left() const {
-  // A state that hardly resists a motion (a bight whose pulls are parallel to 1e-6) turns the rounding of the residual into
-  // increments far above the tolerance.
-  constexpr double rounding = 1e-13, visible = 1e-3;
-  return residual_ <= rounding && increment_ <= visible;
+  // A state that hardly resists a motion (a bight whose pulls are parallel to 1e-6, the gap about to open) turns the
+  // rounding of the residual into increments far above the tolerance. That rounding is eps times the largest terms that
+  // were added up, those of coordinates of size 1: a row of the Jacobian.
+  constexpr double visible = 1e-3, additions = 16.0;
+  if (increment_ > visible) return false;
+  const Eigen::SparseMatrix<double> jacobian = chain_->jacobian(base_, *loads_);
+  const double largest = (jacobian.cwiseAbs() * VectorXd::Ones(jacobian.cols())).maxCoeff();
+  return residual_ * scale_ <= additions * std::numeric_limits<double>::epsilon() * largest;
 }
 
 PetscErrorCode NewtonSolver::System::judge(SNES snes, PetscInt iteration, PetscReal, PetscReal,

@@ -51,7 +51,9 @@ std::vector<Located> locate_branch_points(Segment& segment, const Sample& lo, co
 /// The branch points between two completed samples whose kernel breaks the symmetry the segment's problem is
 /// restricted to: its own equations are regular there. The interval is halved on the change of the breaking
 /// index; in it the unrestricted problem follows the same branch, and the point is located there, where it is
-/// an ordinary branch point with its arms.
-std::vector<Located> locate_symmetry_breaking(Segment& segment, const Sample& lo, const Sample& hi);
+/// an ordinary branch point with its arms. One that comes in together with a point of `restricted`, which
+/// locate_branch_points found there, is left to that point.
+std::vector<Located> locate_symmetry_breaking(Segment& segment, const Sample& lo, const Sample& hi,
+                                              const std::vector<Located>& restricted);
 
 }  // namespace continuation
