@@ -111,7 +111,14 @@ void search(Segment& segment, const Sample& lo, const Sample& hi, int depth,
       segment.options().location_tolerance * std::max(1.0, std::abs(segment.parameter(segment.base())));
   const Sample* middle = nullptr;
   if (hi.s - lo.s > smallest && depth < 60) middle = segment.at(0.5 * (lo.s + hi.s), true);
-  if (!middle) return found.push_back(bracketed(segment, lo, hi, why));
+  if (!middle) {
+    // Newton's method fails this close to a singular point: the restricted one, if it is here.
+    const double width = 4.0 * (hi.s - lo.s);
+    const auto here = [&](const Located& point) { return point.s > lo.s - width && point.s < hi.s + width; };
+    if (std::none_of(restricted.begin(), restricted.end(), here))
+      found.push_back(bracketed(segment, lo, hi, why));
+    return;
+  }
   search(segment, lo, *middle, depth + 1, restricted, found);
   search(segment, *middle, hi, depth + 1, restricted, found);
   // Halving made the change vanish: the count at one end was roundoff close to an eigenvalue's touch.
