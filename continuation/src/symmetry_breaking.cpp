@@ -77,7 +77,7 @@ struct Together {
 
 Together together(Segment& segment, const Sample& lo, const Sample& hi,
                   const std::vector<Located>& restricted) {
-  const double smallest = 1e-6 * std::max(1.0, std::abs(segment.parameter(segment.base())));
+  const double smallest = 1e-5 * std::max(1.0, std::abs(segment.parameter(segment.base())));
   for (const Located& point : restricted) {
     const double close = std::max(smallest, 100.0 * point.precision);
     if (point.s - close <= lo.s || point.s + close >= hi.s) continue;
@@ -113,7 +113,7 @@ void search(Segment& segment, const Sample& lo, const Sample& hi, int depth,
   if (hi.s - lo.s > smallest && depth < 60) middle = segment.at(0.5 * (lo.s + hi.s), true);
   if (!middle) {
     // Newton's method fails this close to a singular point: the restricted one, if it is here.
-    const double width = 4.0 * (hi.s - lo.s);
+    const double width = 16.0 * (hi.s - lo.s);
     const auto here = [&](const Located& point) { return point.s > lo.s - width && point.s < hi.s + width; };
     if (std::none_of(restricted.begin(), restricted.end(), here))
       found.push_back(bracketed(segment, lo, hi, why));

@@ -36,7 +36,7 @@ void add_branch_command(Command& command, CommonOptions& common, int& status,
                           words->save_every};
     if (std::filesystem::is_directory(words->start)) {
       request.run = words->start;
-      request.scene = scene_of_run(words->start, common);
+      request.scene = scene_of_run(words->start, common, true);
       if (words->label.empty())
         throw InputError(words->start +
                          ": is a run folder; say which stored point to restart from (a label)");

@@ -48,19 +48,50 @@ int zero_modes_wanted(const Point& point) { return 3 + 2 * std::max(0, point.ind
 
 }  // namespace
 
-BranchRecorder::BranchRecorder(output::RunWriter& writer, continuation::ProblemCodec codec, bool spectra,
-                               bool quiet)
-    : writer_(writer), codec_(std::move(codec)), spectra_(spectra), progress_(quiet) {
+BranchRecorder::BranchRecorder(output::RunWriter& writer, continuation::ProblemCodec codec,
+                               const scene::Scene& scene, bool spectra, bool quiet)
+    : writer_(writer),
+      codec_(std::move(codec)),
+      tolerance_(scene.model.tolerance),
+      radius_(scene.rod_radius),
+      spectra_(spectra),
+      progress_(quiet) {
   const output::Timings& before = writer.info().timings;
   continuation_ = before.continuation, stability_ = before.stability, earlier_ = before.total;
   lost_ = static_cast<int>(writer.info().lost_branches.size());
   if (writer.rows().empty()) return;
-  for (const output::BranchRow& row : writer.rows()) labels_.insert(row.label);
+  for (const output::BranchRow& row : writer.rows()) labels_.insert(row.label), judge(row);
   points_ = static_cast<int>(writer.rows().size());
   last_ = writer.rows().back();
   in_branch_ = last_.point;
   progress_.note(
       fmt::format("goes on after branch {}, point {} ({} points)", last_.branch, last_.point, points_));
+}
+
+void BranchRecorder::judge(const output::BranchRow& row) {
+  // A special point repeats the estimate of the point before.
+  if (row.label.empty() && row.error_estimate > tolerance_) {
+    ++imprecise_;
+    worst_error_ = std::max(worst_error_, row.error_estimate);
+  }
+  if (row.self_distance && *row.self_distance < 2.0 * radius_) {
+    ++too_close_;
+    closest_ = std::min(closest_, *row.self_distance);
+  }
+}
+
+std::vector<std::string> BranchRecorder::warnings() const {
+  std::vector<std::string> list;
+  if (imprecise_ > 0)
+    list.push_back(
+        fmt::format("model.tolerance = {:g} was not met at {} points: error estimates up to {:.1e}",
+                    tolerance_, imprecise_, worst_error_));
+  if (too_close_ > 0)
+    list.push_back(
+        fmt::format("the rod passes through itself at {} points: self_distance down to {:.6g}, under 2 "
+                    "rod.radius = {:.6g}",
+                    too_close_, closest_, 2.0 * radius_));
+  return list;
 }
 
 void BranchRecorder::on_branch_start(const Branch&) { in_branch_ = 0; }
@@ -104,6 +135,8 @@ void BranchRecorder::on_point(const Branch& branch, const Point& point) {
     const std::string label = special(point) && labels_.insert(point.label).second ? point.label : "";
     last_ = output::make_row(solution, branch.id + 1, ++in_branch_, label, type_name(point.type), point.ds);
     if (!writer_.info().extra_parameter.empty()) last_.parameter = point.p(0);
+    at_ = point.p(0);
+    judge(last_);
     writer_.add_point(last_, solution);
     ++points_;
     if (progress_.due())
@@ -120,9 +153,10 @@ void BranchRecorder::on_special_point(const Branch& branch, const Point& point) 
   entry.label = point.label;
   entry.type = type_name(point.type);
   entry.branch = branch.id + 1;
-  entry.T = last_.T;
-  entry.phi = last_.phi;
-  entry.parameter = last_.parameter;
+  const bool capstan = writer_.info().has_cylinder;  // a strut has neither tension nor angle
+  entry.T = capstan ? last_.T : std::nan("");
+  entry.phi = capstan ? last_.phi : std::nan("");
+  entry.parameter = point.p(0);
   entry.precision = point.precision;
   if (point.type == PointType::event) {
     const auto& problem = dynamic_cast<const RodProblem&>(*point.problem);
@@ -174,7 +208,7 @@ void BranchRecorder::on_branch_end(const Branch& branch) {
   if (branch.end.lost()) {
     ++lost_;
     writer_.add_lost_branch({branch.id + 1, branch.origin.empty() ? "start" : branch.origin, last_.T,
-                             last_.phi, branch.end.reason});
+                             last_.phi, branch.end.reason, at_});
   }
   progress_.note(fmt::format("branch {}: {} points, {}", branch.id + 1, branch.points, branch.end.reason));
   resumed_ = Clock::now();
@@ -202,11 +236,20 @@ int BranchRecorder::finish(const continuation::Diagram& diagram, bool quiet, boo
   pause();
   progress_.finish();
   nlohmann::ordered_json summary;
+  std::vector<std::string> cut_short;
   summary["points"] = points_;
   summary["special_points"] = writer_.special_points().size();
   summary["lost"] = diagram.lost;
   summary["inadmissible"] = diagram.inadmissible;
-  const bool incomplete = !diagram.lost.empty() || lost_ > 0;
+  // Of the whole run: a resumed one did not see the ends of its first branches.
+  for (const continuation::Branch& branch : diagram.branches)
+    if (branch.end.kind == continuation::End::Kind::max_points)
+      cut_short.push_back(fmt::format("branch {}: {}, before {} reached continuation.to", branch.id + 1,
+                                      branch.end.reason, writer_.info().parameter));
+  const std::vector<std::string> warned = warnings();
+  summary["cut_short"] = cut_short;
+  summary["warnings"] = warned;
+  const bool incomplete = !diagram.lost.empty() || lost_ > 0 || !cut_short.empty();
   writer_.finish(stopped_ ? "interrupted" : incomplete ? "incomplete" : "finished", timings(), summary);
   if (json) {
     nlohmann::ordered_json out = output::to_json(writer_.info());
@@ -219,7 +262,9 @@ int BranchRecorder::finish(const continuation::Diagram& diagram, bool quiet, boo
                 1e3 * stability_ / std::max(1, points_), writer_.folder().string().c_str());
     for (const std::string& arm : diagram.inadmissible) std::printf("no arm: %s\n", arm.c_str());
     for (const std::string& reason : diagram.lost) std::printf("lost: %s\n", reason.c_str());
+    for (const std::string& end : cut_short) std::printf("cut short: %s\n", end.c_str());
   }
+  for (const std::string& warning : warned) std::fprintf(stderr, "windlass: %s\n", warning.c_str());
   return stopped_ ? interrupted : incomplete ? not_finished : done;
 }
 

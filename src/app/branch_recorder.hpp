@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cmath>
 #include <continuation/checkpoint.hpp>
 #include <set>
 
@@ -17,7 +18,8 @@ class BranchRecorder final : public continuation::DiagramObserver {
   /// Goes on with what the writer holds already.
   /// @param codec    of the problems on the branches
   /// @param spectra  the lowest eigenvalue at every point; special points get theirs, and its mode, always
-  BranchRecorder(output::RunWriter& writer, continuation::ProblemCodec codec, bool spectra, bool quiet);
+  BranchRecorder(output::RunWriter& writer, continuation::ProblemCodec codec, const scene::Scene& scene,
+                 bool spectra, bool quiet);
 
   void on_branch_start(const continuation::Branch& branch) override;
   void on_point(const continuation::Branch& branch, const continuation::Point& point) override;
@@ -36,9 +38,15 @@ class BranchRecorder final : public continuation::DiagramObserver {
   void pause() { continuation_ += std::chrono::duration<double>(Clock::now() - resumed_).count(); }
   output::Timings timings() const;
   void add_eigenvalues(equilibrium::Solution& solution, const continuation::Point& point);
+  /// Counts what the summary has to warn of.
+  void judge(const output::BranchRow& row);
+  /// What the user should know of the points, a sentence each.
+  std::vector<std::string> warnings() const;
 
   output::RunWriter& writer_;
   continuation::ProblemCodec codec_;
+  double tolerance_;  ///< asked of every point
+  double radius_;     ///< of the rod; 0: not given
   bool spectra_;
   Progress progress_;
   stability::SpectrumSolver solver_;
@@ -47,6 +55,11 @@ class BranchRecorder final : public continuation::DiagramObserver {
          earlier_ = 0.0;  ///< earlier_: total of the run before it was resumed
   int points_ = 0, in_branch_ = 0, lost_ = 0;
   bool stopped_ = false;
+  int imprecise_ = 0;          ///< points whose error estimate exceeds the tolerance
+  double worst_error_ = 0.0;   ///< of them
+  int too_close_ = 0;          ///< points at which the rod is nearer to itself than two radii
+  double closest_ = INFINITY;  ///< of them
+  double at_ = 0.0;            ///< the parameter at the last point
   std::set<std::string> labels_;
   int kernel_ = 0;  ///< zero eigenvalues at the last branch point
   output::BranchRow last_;

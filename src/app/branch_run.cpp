@@ -25,6 +25,7 @@ output::WriterOptions writer_options(const BranchRequest& request, const std::st
   options.command = command;
   options.version = WINDLASS_VERSION;
   options.save_every = request.save_every;
+  options.parameter = key;
   if (key != "load.tension" && key != "load.angle" && key != "ends.shortening") options.extra_parameter = key;
   // With the scene, all that decides what the run will hold.
   options.options["from"] = nullptr;
@@ -122,7 +123,7 @@ int run_branches(const BranchRequest& request, const std::string& command,
   options.force = options.force || found.started;
   const continuation::ProblemCodec codec = equilibrium::rod_codec(setup.scene, {setup.key});
   const auto record = [&](output::RunWriter writer, const auto& walk) {
-    BranchRecorder recorder(writer, codec, request.eigenvalues, request.common.quiet);
+    BranchRecorder recorder(writer, codec, setup.scene, request.eigenvalues, request.common.quiet);
     recorder.start_clock();
     const continuation::Diagram diagram = walk(recorder);
     return recorder.finish(diagram, request.common.quiet, request.common.json);

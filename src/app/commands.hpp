@@ -145,6 +145,8 @@ std::filesystem::path output_folder(const CommonOptions& common, const scene::Sc
 std::filesystem::path scenes_folder();
 
 /// The scene as resolved in a run folder, with the overrides applied. @throws scene::SceneError
-scene::Scene scene_of_run(const std::filesystem::path& run, const CommonOptions& common);
+/// @param restart  a branch begins at a stored point of the run
+scene::Scene scene_of_run(const std::filesystem::path& run, const CommonOptions& common,
+                          bool restart = false);
 
 }  // namespace windlass::app

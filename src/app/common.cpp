@@ -38,11 +38,11 @@ std::filesystem::path output_folder(const CommonOptions& common, const scene::Sc
   return common.out.empty() ? std::filesystem::path("runs") / scene.name : common.out;
 }
 
-scene::Scene scene_of_run(const std::filesystem::path& run, const CommonOptions& common) {
+scene::Scene scene_of_run(const std::filesystem::path& run, const CommonOptions& common, bool restart) {
   if (!std::filesystem::exists(run)) throw InputError(run.string() + ": no such run folder");
   if (!std::filesystem::is_regular_file(run / "scene.toml"))
     throw InputError(run.string() + ": is not a run folder: it has no scene.toml");
-  return scene::read_scene(run / "scene.toml", common.set);
+  return scene::read_scene(run / "scene.toml", common.set, {restart});
 }
 
 }  // namespace windlass::app

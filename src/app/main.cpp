@@ -1,6 +1,11 @@
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <string>
@@ -47,6 +52,8 @@ int complain(const char* message, int status) {
 void check_command(const CommandLine& app, const std::string& word) {
   if (word.starts_with('-')) return;
   std::string known;
+  for (const char* planned : {"pull", "relax", "table"})
+    if (word == planned) throw InputError(word + ": this command is not built yet");
   for (const CommandText& command : app.describe_commands()) {
     if (command.name == word) return;
     known += (known.empty() ? "" : ", ") + command.name;
@@ -79,14 +86,31 @@ int run(std::vector<std::string> arguments) {
   check_ranks(arguments.front());
   common.petsc = take_petsc_options(arguments);
   petsc::set_options(common.petsc);
-  return app.parse(arguments) ? status : static_cast<int>(bad_input);
+  const bool parsed = app.parse(arguments);
+  for (const std::string& option : petsc::unused_options())
+    std::fprintf(stderr, "windlass: %s: nothing in this run has asked PETSc for this option; misspelt?\n",
+                 option.c_str());
+  return parsed ? status : static_cast<int>(bad_input);
 }
 
-}  // namespace
+/// What was printed must have arrived: a full disk behind a redirected stdout is an error like any other. Says so, and
+/// sends the rest nowhere, so that nobody stumbles over it again at exit.
+bool flush_stdout(bool complain_now) {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return true;
+  const int reason = errno;
+  if (const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC); nowhere >= 0)
+    ::dup2(nowhere, STDOUT_FILENO);
+  if (complain_now)
+    complain((std::string("cannot write to standard output") + (reason ? ": " : "") +
+              (reason ? std::strerror(reason) : ""))
+                 .c_str(),
+             not_finished);
+  return false;
+}
 
-int main(int argc, char** argv) {
+int guarded_run(int argc, char** argv) {
   try {
-    catch_interrupts();
     return run({argv + 1, argv + argc});
   } catch (const InputError& error) {
     return complain(error.what(), bad_input);
@@ -101,4 +125,17 @@ int main(int argc, char** argv) {
   } catch (...) {
     return complain("an unknown error", not_finished);
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  catch_interrupts();
+  // Written at the end, but to a terminal: the reason why it cannot be is known then. (glibc wants the buffer given.)
+  static char buffer[1 << 20];
+  if (!::isatty(STDOUT_FILENO)) std::setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
+  const int status = guarded_run(argc, argv);
+  // A command that has failed has said why; that its output is cut short with it needs no second line.
+  if (!flush_stdout(status == done || status == certificate_failed)) return not_finished;
+  return status;
 }

@@ -1,9 +1,11 @@
 #include "app/progress.hpp"
 
+#include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cstdio>
+#include <utility>
 
 namespace windlass::app {
 
@@ -53,6 +55,27 @@ void Progress::note(std::string_view text) {
   if (style_ == Style::silent) return;
   finish();
   print_line(text);
+}
+
+Heartbeat::Heartbeat(std::string what, bool quiet)
+    : what_(std::move(what)), progress_(quiet), thread_([this] { beat(); }) {}
+
+Heartbeat::~Heartbeat() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  over_.notify_all();
+  thread_.join();
+}
+
+void Heartbeat::beat() {
+  const auto begin = std::chrono::steady_clock::now();
+  std::unique_lock lock(mutex_);
+  while (!over_.wait_for(lock, live_period, [this] { return stop_; })) {
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+    if (progress_.due()) progress_.update(fmt::format("{}: {:.0f} s; Ctrl-C ends it", what_, passed.count()));
+  }
 }
 
 void Progress::finish() {

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <string>
 #include <string_view>
+#include <thread>
 
 namespace windlass::app {
 
@@ -31,6 +34,25 @@ class Progress {
   Style style_;
   Clock::time_point next_;
   bool line_open_ = false;
+};
+
+/// Shows, while it lives, that work goes on which reports nothing itself: what is done and for how long already.
+class Heartbeat {
+ public:
+  Heartbeat(std::string what, bool quiet);
+  ~Heartbeat();
+  Heartbeat(const Heartbeat&) = delete;
+  Heartbeat& operator=(const Heartbeat&) = delete;
+
+ private:
+  void beat();
+
+  std::string what_;
+  Progress progress_;
+  std::mutex mutex_;
+  std::condition_variable over_;
+  bool stop_ = false;
+  std::thread thread_;
 };
 
 }  // namespace windlass::app

@@ -103,6 +103,7 @@ int run_locus(const LocusRequest& request) {
   writer_options.force = request.common.force;
   writer_options.command = "locus";
   writer_options.version = WINDLASS_VERSION;
+  writer_options.parameter = first;
   writer_options.options = {{"of", request.label}, {"in", request.second}};
   if (request.second != "load.angle" && request.second != "load.tension")
     writer_options.extra_parameter = request.second;
@@ -146,9 +147,12 @@ int run_locus(const LocusRequest& request) {
                   walker.end().reason);
     if (!walker.end().lost()) continue;
     lost = true;
-    writer.add_lost_branch({direction > 0 ? 1 : 2, request.label,
+    writer.add_lost_branch({direction > 0 ? 1 : 2,
+                            request.label,
                             writer.rows().empty() ? 0.0 : writer.rows().back().T,
-                            writer.rows().empty() ? 0.0 : writer.rows().back().phi, walker.end().reason});
+                            writer.rows().empty() ? 0.0 : writer.rows().back().phi,
+                            walker.end().reason,
+                            {}});
   }
   writer.finish(stopped ? "interrupted"
                 : lost  ? "incomplete"

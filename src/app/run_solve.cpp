@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/commands.hpp"
+#include "app/progress.hpp"
 #include "windlass/equilibrium/equilibria.hpp"
 #include "windlass/equilibrium/record.hpp"
 #include "windlass/equilibrium/start.hpp"
@@ -144,6 +145,9 @@ void print_summary(const equilibrium::Equilibria& found, const scene::Scene& sce
   else
     print_strut(solution, physical, error);
   print_quantity("energy", solution.energy, physical.moment(solution.energy));
+  if (solution.self_distance)
+    print_quantity("self_distance", *solution.self_distance, physical.length(*solution.self_distance),
+                   fmt::format("between s = {:.6g} and {:.6g}", solution.self_s[0], solution.self_s[1]));
   if (solution.stability) {
     fmt::print("  {:<12} index {}{}, lowest eigenvalues", "stability", solution.stability->index,
                solution.stability->degenerate ? " (a contact carries no force)" : "");
@@ -160,14 +164,31 @@ void print_summary(const equilibrium::Equilibria& found, const scene::Scene& sce
              solution.mesh.unknowns, 1e3 * solution.seconds_total);
 }
 
+/// On stderr, whatever else is printed: an answer that is not what was asked for.
+void warn(const Solution& solution, const scene::Scene& scene) {
+  if (solution.error_estimate > scene.model.tolerance)
+    fmt::print(stderr, "windlass: model.tolerance = {:g} was not met: the error estimate is {:.1e}\n",
+               scene.model.tolerance, solution.error_estimate);
+  if (solution.self_distance && *solution.self_distance < 2.0 * scene.rod_radius)
+    fmt::print(
+        stderr,
+        "windlass: the rod passes through itself: self_distance = {:.6g} (s = {:.6g} and {:.6g}), under "
+        "2 rod.radius = {:.6g}\n",
+        *solution.self_distance, solution.self_s[0], solution.self_s[1], 2.0 * scene.rod_radius);
+}
+
 }  // namespace
 
 int run_solve(const SolveRequest& request) {
   petsc::ensure_session();
-  equilibrium::Equilibria found = equilibrium::equilibria(request.scene);
-  Solution& solution = found.answer;
   const scene::Scene scene = equilibrium::determinate(request.scene);  // the one solved
-  add_stability(solution, scene);
+  const equilibrium::Equilibria found = [&] {
+    const Heartbeat heartbeat(scene.name + ": searching the equilibrium", request.common.quiet);
+    equilibrium::Equilibria all = equilibrium::equilibria(request.scene);
+    add_stability(all.answer, scene);
+    return all;
+  }();
+  const Solution& solution = found.answer;
   if (request.save) {
     output::WriterOptions options;
     options.force = request.common.force;
@@ -179,6 +200,7 @@ int run_solve(const SolveRequest& request) {
     writer.finish("finished", {1, solution.seconds_solve, solution.seconds_stability, solution.seconds_total},
                   {});
   }
+  warn(solution, scene);
   if (request.common.json)
     std::printf("%s\n", to_json(found, scene).dump(2).c_str());
   else if (!request.common.quiet)

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -15,7 +16,7 @@ int run_verify(const RunRequest& request) {
   if (run.points.size() == 0)
     throw InputError(request.run.string() + ": holds no points yet, so there is nothing to verify");
   nlohmann::ordered_json report;
-  int failed = 0;
+  int failed = 0, too_close = 0;
   for (std::size_t k = 0; k < run.points.size(); ++k) {
     const auto& key = run.points.keys()[k];
     const std::string name = output::point_name(key.branch, key.point, key.label);
@@ -23,6 +24,9 @@ int run_verify(const RunRequest& request) {
     const verify::Certificate certificate =
         verify::verify(solution, scene_of_point(scene, run, k), request.standard);
     report["points"].push_back({{"name", name}, {"certificate", verify::to_json(certificate)}});
+    report["points"].back()["self_distance"] =
+        output::finite_or_null(solution.self_distance.value_or(std::nan("")));
+    too_close += solution.self_distance && *solution.self_distance < 2.0 * scene.rod_radius;
     if (certificate.passed()) continue;
     ++failed;
     if (!request.common.json)
@@ -31,10 +35,16 @@ int run_verify(const RunRequest& request) {
   }
   report["checked"] = run.points.size();
   report["failed"] = failed;
+  report["through_itself"] = too_close;
   if (request.common.json)
     std::printf("%s\n", report.dump(2).c_str());
   else if (!request.common.quiet)
     std::printf("%zu points integrated again with CVODE, %d failed\n", run.points.size(), failed);
+  if (too_close > 0)
+    std::fprintf(
+        stderr,
+        "windlass: at %d points the rod passes through itself: self_distance under 2 rod.radius = %.6g\n",
+        too_close, 2.0 * scene.rod_radius);
   return failed > 0 ? certificate_failed : done;
 }
 

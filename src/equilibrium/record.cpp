@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "windlass/chain/self_distance.hpp"
 #include "windlass/rod/quaternion.hpp"
 
 namespace windlass::equilibrium {
@@ -88,8 +89,8 @@ JointRecord contact_record(const chain::Contact& c, double sign) {
 }
 
 /// Arcs and joints of the whole rod from −L/2 to L/2.
-void assemble(const chain::Profile& shape, const Topology& topology, bool infinite, Solution& out) {
-  const chain::Profile whole = topology.half ? chain::mirrored(shape) : shape;
+void assemble(const chain::Profile& shape, const chain::Profile& whole, const Topology& topology,
+              bool infinite, Solution& out) {
   std::vector<ArcRecord> arcs;
   for (const Piece& piece : whole.pieces) arcs.push_back(arc_record(piece));
   std::vector<JointRecord> contacts;
@@ -169,7 +170,13 @@ Solution record(RodProblem& problem, const Vector& x, const Vector& p) {
   out.model = !problem.spatial() ? "planar" : topology.half ? "kirchhoff_half" : "kirchhoff_full";
   out.converged = true;
   out.topology = scene.has_cylinder ? topology.text() : "strut";
-  assemble(shape, topology, problem.rod().infinite, out);
+  const chain::Profile image = topology.half ? chain::mirrored(shape) : chain::Profile();
+  const chain::Profile& whole = topology.half ? image : shape;
+  assemble(shape, whole, topology, problem.rod().infinite, out);
+  if (const auto self = chain::self_distance(whole, problem.rod(), scene.rod_radius)) {
+    out.self_distance = self->distance;
+    out.self_s = {self->s1, self->s2};
+  }
   measure_shape(shape, out);
   const double copies = topology.half ? 2.0 : 1.0;
   for (int i = 0; i < problem.chain().link_count(); ++i) {

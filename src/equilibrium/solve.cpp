@@ -138,8 +138,11 @@ Equilibria choose(const scene::Scene& scene, const Flat& flat, const std::vector
   return out;
 }
 
-Equilibria solve_strut(const scene::Scene& scene, const std::vector<std::string>& keys) {
+/// @param kirchhoff  the rung is asked for: under a given thrust the straight rod itself, stable or not
+Equilibria solve_strut(const scene::Scene& scene, const std::vector<std::string>& keys, bool kirchhoff) {
   Flat flat = flat_state(scene, keys);
+  if (!scene.ends.shortening && kirchhoff && flat.rod)
+    return only(finish(*flat.rod, "asked for"), scene, flat.index);
   if (scene.ends.shortening)
     return choose(scene, flat, keys, [](FoundState& best) {
       return finish(best.at, "a strut may twist and leave the plane: Kirchhoff rod");
@@ -216,7 +219,7 @@ Equilibria on_rung(const scene::Scene& scene) {
     case ModelKind::kirchhoff:
     case ModelKind::automatic:
       return scene.has_cylinder ? solve_capstan(scene, keys, scene.model.kind == ModelKind::kirchhoff)
-                                : solve_strut(scene, keys);
+                                : solve_strut(scene, keys, scene.model.kind == ModelKind::kirchhoff);
     case ModelKind::closed_form:
       if (!scene.has_cylinder || !scene.rod.infinite())
         throw InputError("model.kind = \"closed_form\": needs a cylinder and rod.length = \"inf\"");

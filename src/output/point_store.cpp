@@ -100,6 +100,10 @@ void PointStore::append(const Key& key, const Solution& solution) {
   visit_scalars(p, solution, PushBack{});
   p.has_F0.push_back(solution.F0.has_value());
   p.F0.push_back(finite_or(solution.F0.value_or(0.0), 0.0));
+  p.has_self_distance.push_back(solution.self_distance.has_value());
+  p.self_distance.push_back(finite_or(solution.self_distance.value_or(0.0), 0.0));
+  p.self_s1.push_back(solution.self_s[0]);
+  p.self_s2.push_back(solution.self_s[1]);
   p.arc_begin.push_back(static_cast<std::int64_t>(columns_.arcs.kind.size()));
   p.arc_count.push_back(static_cast<std::int64_t>(solution.arcs.size()));
   for (const ArcRecord& arc : solution.arcs) append_arc(columns_, arc);
@@ -147,6 +151,8 @@ Solution PointStore::get(std::size_t position) const {
   Solution solution;
   visit_scalars(p, solution, Fetch{position});
   if (p.has_F0[position] != 0) solution.F0 = p.F0[position];
+  if (p.has_self_distance[position] != 0) solution.self_distance = p.self_distance[position];
+  solution.self_s = {p.self_s1[position], p.self_s2[position]};
   for (std::int64_t i = 0; i < p.arc_count[position]; ++i) {
     solution.arcs.push_back(read_arc(columns_, static_cast<std::size_t>(p.arc_begin[position] + i)));
   }

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <thread>
 
+#include "windlass/output/checksum.hpp"
+
 namespace windlass::output {
 
 using nlohmann::ordered_json;
@@ -27,6 +29,7 @@ BranchRow make_row(const equilibrium::Solution& solution, int branch, int point,
   row.tilt = solution.tilt;
   row.z_span = solution.z_span;
   row.energy = solution.energy;
+  row.self_distance = solution.self_distance;
   if (solution.stability) {
     row.index = solution.stability->index;
     if (!solution.stability->eigenvalues.empty()) row.eigenvalue_1 = solution.stability->eigenvalues.front();
@@ -51,6 +54,11 @@ namespace {
 double number_or_nan(const ordered_json& json, const char* key) {
   const ordered_json& value = json.at(key);
   return value.is_null() ? std::nan("") : value.get<double>();
+}
+
+std::optional<double> number_if_any(const ordered_json& json, const char* key) {
+  const ordered_json& value = json.at(key);
+  return value.is_null() ? std::nullopt : std::optional(value.get<double>());
 }
 
 /// First value of a `key : value` line of /proc/cpuinfo; empty where there is no such file.
@@ -87,7 +95,7 @@ ordered_json to_json(const SpecialPoint& point) {
   json["branch"] = point.branch;
   json["T"] = finite_or_null(point.T);
   json["phi"] = finite_or_null(point.phi);
-  if (point.parameter) json["parameter"] = finite_or_null(*point.parameter);
+  json["parameter"] = finite_or_null(point.parameter.value_or(std::nan("")));
   json["precision"] = finite_or_null(point.precision);
   json["multiplicity"] = point.multiplicity;
   json["mode"] = nullptr;
@@ -104,7 +112,7 @@ SpecialPoint special_point_from_json(const ordered_json& json) {
   point.branch = json.at("branch").get<int>();
   point.T = number_or_nan(json, "T");
   point.phi = number_or_nan(json, "phi");
-  if (json.contains("parameter")) point.parameter = number_or_nan(json, "parameter");
+  point.parameter = number_if_any(json, "parameter");
   point.precision = number_or_nan(json, "precision");
   point.multiplicity = json.at("multiplicity").get<int>();
   const ordered_json& mode = json.at("mode");
@@ -120,12 +128,14 @@ ordered_json to_json(const LostBranch& lost) {
                       {"from", lost.from},
                       {"T", finite_or_null(lost.T)},
                       {"phi", finite_or_null(lost.phi)},
+                      {"parameter", finite_or_null(lost.parameter.value_or(std::nan("")))},
                       {"reason", lost.reason}};
 }
 
 LostBranch lost_branch_from_json(const ordered_json& json) {
-  return {json.at("branch").get<int>(), json.at("from").get<std::string>(), number_or_nan(json, "T"),
-          number_or_nan(json, "phi"), json.at("reason").get<std::string>()};
+  return {
+      json.at("branch").get<int>(), json.at("from").get<std::string>(),   number_or_nan(json, "T"),
+      number_or_nan(json, "phi"),   json.at("reason").get<std::string>(), number_if_any(json, "parameter")};
 }
 
 ordered_json to_json(const RunInfo& info) {
@@ -136,6 +146,7 @@ ordered_json to_json(const RunInfo& info) {
   json["scene"] = info.scene;
   json["status"] = info.status;
   json["has_cylinder"] = info.has_cylinder;
+  json["parameter"] = info.parameter.empty() ? ordered_json(nullptr) : ordered_json(info.parameter);
   json["extra_parameter"] =
       info.extra_parameter.empty() ? ordered_json(nullptr) : ordered_json(info.extra_parameter);
   json["options"] = info.options;
@@ -150,6 +161,22 @@ ordered_json to_json(const RunInfo& info) {
   return json;
 }
 
+std::string info_text(const RunInfo& info) {
+  ordered_json json = to_json(info);
+  json["files"] = ordered_json::object();
+  for (const auto& [file, stamps] : info.stamps)
+    for (const Stamp& stamp : stamps)
+      json["files"][file].push_back({{"bytes", stamp.bytes}, {"checksum", stamp.checksum}});
+  json["checksum"] = checksum(json.dump());
+  return json.dump(2) + "\n";
+}
+
+bool has_right_checksum(ordered_json info) {
+  const std::string stated = info.at("checksum").get<std::string>();
+  info.erase("checksum");
+  return stated == checksum(info.dump());
+}
+
 RunInfo run_info_from_json(const ordered_json& json) {
   RunInfo info;
   info.version = json.at("version").get<std::string>();
@@ -157,6 +184,7 @@ RunInfo run_info_from_json(const ordered_json& json) {
   info.scene = json.at("scene").get<std::string>();
   info.status = json.at("status").get<std::string>();
   info.has_cylinder = json.at("has_cylinder").get<bool>();
+  if (!json.at("parameter").is_null()) info.parameter = json.at("parameter").get<std::string>();
   if (!json.at("extra_parameter").is_null())
     info.extra_parameter = json.at("extra_parameter").get<std::string>();
   info.options = json.at("options");
@@ -167,6 +195,10 @@ RunInfo run_info_from_json(const ordered_json& json) {
   const ordered_json& timings = json.at("timings");
   info.timings = {timings.at("points").get<int>(), number_or_nan(timings, "continuation"),
                   number_or_nan(timings, "stability"), number_or_nan(timings, "total")};
+  for (const auto& [file, stamps] : json.at("files").items())
+    for (const ordered_json& stamp : stamps)
+      info.stamps[file].push_back(
+          {stamp.at("bytes").get<std::size_t>(), stamp.at("checksum").get<std::string>()});
   return info;
 }
 

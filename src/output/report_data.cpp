@@ -7,6 +7,7 @@
 #include "windlass/output/plot.hpp"
 #include "windlass/output/report.hpp"
 #include "windlass/output/rod_curve.hpp"
+#include "windlass/output/stable_state.hpp"
 
 namespace windlass::output {
 
@@ -159,6 +160,11 @@ ordered_json branches_json(const Run& run, const std::vector<Quantity>& list) {
   ordered_json json = ordered_json::array();
   for (const auto& [branch, rows] : branches) {
     ordered_json entry = {{"branch", branch}};
+    entry["between"] = ordered_json::array();  // unstable directions from each point to the next
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      const std::optional<int> index = index_between(rows[i - 1], rows[i]);
+      entry["between"].push_back(index ? ordered_json(*index) : ordered_json(nullptr));
+    }
     for (const BranchRow& row : rows) {
       entry["names"].push_back(point_name(row.branch, row.point, row.label));
       entry["index"].push_back(row.index ? ordered_json(*row.index) : ordered_json(nullptr));

@@ -2,6 +2,7 @@
 
 #include "run_files.hpp"
 #include "windlass/output/branches_csv.hpp"
+#include "windlass/output/checksum.hpp"
 #include "windlass/output/error.hpp"
 
 namespace windlass::output {
@@ -48,17 +49,20 @@ RunWriter RunWriter::create(const fs::path& folder, const scene::Scene& scene, c
   writer.info_.command = options.command;
   writer.info_.scene = scene.name;
   writer.info_.has_cylinder = scene.has_cylinder;
+  writer.info_.parameter = options.parameter;
   writer.info_.extra_parameter = options.extra_parameter;
   writer.info_.options = options.options;
   writer.info_.machine = describe_machine();
   writer.save_every_ = options.save_every;
   writer.last_checkpoint_ = std::chrono::steady_clock::now();
   make_folder(writer.folder_);
+  writer.lock_ = FolderLock(writer.folder_);
   // A mixture of the old run and the new must not be taken for a run: run.json goes first and comes last.
   for (const char* file : {info_file, checkpoint_file}) remove_file(writer.folder_ / file);
-  replace_file(writer.folder_ / scene_file, std::string_view(scene.resolved_toml));
+  writer.replace_stamped(scene_file, scene.resolved_toml);
   writer.rewrite_branches();
   writer.write_special_points();
+  writer.started_ = true;
   writer.commit();
   if (fresh) {
     std::error_code error;
@@ -89,10 +93,14 @@ void cut(Run& run, const Extent& extent) {
 
 RunWriter RunWriter::resume(const fs::path& folder, const std::optional<Extent>& extent,
                             std::optional<double> save_every) {
+  FolderLock lock(folder);
   Run run = read_run(folder);
   if (extent) cut(run, *extent);
   RunWriter writer;
   writer.folder_ = folder;
+  writer.lock_ = std::move(lock);
+  writer.started_ = true;
+  writer.branches_text_ = read_file(folder / branches_file);
   writer.save_every_ = save_every;
   if (save_every) writer.set_pause({});
   writer.info_ = std::move(run.info);
@@ -117,7 +125,9 @@ void RunWriter::add_point(const BranchRow& row, const equilibrium::Solution& sol
   info_.status = "running";  // a finished run that only gets spectra stays finished
   store_.append({row.branch, row.point, row.label}, solution);
   rows_.push_back(row);
-  branches_.append(csv_line(row, info_.has_cylinder, info_.extra_parameter));
+  const std::string line = csv_line(row, info_.has_cylinder, info_.extra_parameter);
+  branches_.append(line);
+  branches_text_ += line;
   if (std::chrono::steady_clock::now() - last_commit_ > pause_) commit();
 }
 
@@ -170,7 +180,7 @@ void RunWriter::checkpoint(nlohmann::json state) {
                                      {"state", std::move(state)}};
   std::vector<char> bytes;
   nlohmann::json::to_cbor(checkpoint, bytes);
-  replace_file(folder_ / checkpoint_file, bytes);
+  replace_file(folder_ / checkpoint_file, std::string_view(sealed({bytes.data(), bytes.size()})));
   last_checkpoint_ = std::chrono::steady_clock::now();
   set_pause(last_checkpoint_ - begin);
 }
@@ -180,8 +190,7 @@ void RunWriter::finish(const std::string& status, const Timings& timings, ordere
   info_.timings = timings;
   info_.summary = std::move(summary);
   if (committed_ != store_.size()) store_.write(folder_ / points_file);
-  rewrite_branches();
-  write_special_points();
+  if (rows_stale_) rewrite_branches();
   write_info();
   committed_ = store_.size();
   if (status != "interrupted") remove_file(folder_ / checkpoint_file);
@@ -190,19 +199,31 @@ void RunWriter::finish(const std::string& status, const Timings& timings, ordere
 void RunWriter::rewrite_branches() {
   std::string text = csv_header(info_.has_cylinder, info_.extra_parameter);
   for (const BranchRow& row : rows_) text += csv_line(row, info_.has_cylinder, info_.extra_parameter);
-  replace_file(folder_ / branches_file, std::string_view(text));
+  branches_text_ = text;
+  replace_stamped(branches_file, text);
   branches_ = AppendFile(folder_ / branches_file);
   rows_stale_ = false;
 }
 
-void RunWriter::write_special_points() const {
-  ordered_json list = ordered_json::array();
-  for (const SpecialPoint& point : special_points_) list.push_back(to_json(point));
-  replace_file(folder_ / special_file, std::string_view(list.dump(2) + "\n"));
+void RunWriter::replace_stamped(const char* file, const std::string& text) {
+  const Stamp stamp{text.size(), output::checksum(text)};
+  info_.stamps[file].push_back(stamp);
+  if (started_) write_info();
+  replace_file(folder_ / file, std::string_view(text));
+  info_.stamps[file] = {stamp};
 }
 
-void RunWriter::write_info() const {
-  replace_file(folder_ / info_file, std::string_view(to_json(info_).dump(2) + "\n"));
+void RunWriter::write_special_points() {
+  ordered_json list = ordered_json::array();
+  for (const SpecialPoint& point : special_points_) list.push_back(to_json(point));
+  replace_stamped(special_file, list.dump(2) + "\n");
+}
+
+void RunWriter::write_info() {
+  // Rows that were appended since; while the file is being replaced, its stamps are those of replace_stamped.
+  std::vector<Stamp>& rows = info_.stamps[branches_file];
+  if (rows.size() == 1) rows = {{branches_text_.size(), output::checksum(branches_text_)}};
+  replace_file(folder_ / info_file, std::string_view(info_text(info_)));
 }
 
 }  // namespace windlass::output

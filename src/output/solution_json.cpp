@@ -1,5 +1,6 @@
 #include "windlass/output/solution_json.hpp"
 
+#include <cmath>
 #include <numbers>
 
 #include "windlass/output/error.hpp"
@@ -108,6 +109,8 @@ ordered_json physical_json(const Solution& solution, const scene::Units& units) 
   }
   json["z_span"] = quantity(solution.z_span * units.length * mm, "mm");
   json["energy"] = quantity(solution.energy * units.energy * 1e3, "mJ");
+  if (solution.self_distance)
+    json["self_distance"] = quantity(*solution.self_distance * units.length * mm, "mm");
   ordered_json contact;
   contact["arcs"] = ordered_json::array();
   for (const ArcRecord& arc : solution.arcs) {
@@ -154,12 +157,14 @@ ordered_json to_json(const Solution& solution, const scene::Scene& scene) {
   json["tilt"] = finite_or_null(solution.tilt);
   json["z_span"] = finite_or_null(solution.z_span);
   json["energy"] = finite_or_null(solution.energy);
+  json["self_distance"] = finite_or_null(solution.self_distance.value_or(std::nan("")));
   if (solution.has_cylinder) json["contact"] = contact_json(solution);
   json["stability"] = stability_json(solution);
   json["invariants"] = {{"hamiltonian_drift", finite_or_null(solution.invariants.hamiltonian_drift)},
                         {"axial_torque_drift", finite_or_null(solution.invariants.axial_torque_drift)},
                         {"force_residual", finite_or_null(solution.invariants.force_residual)}};
   json["error_estimate"] = finite_or_null(solution.error_estimate);
+  json["tolerance_met"] = solution.error_estimate <= scene.model.tolerance;
   json["mesh"] = {{"elements", solution.mesh.elements},
                   {"stages", solution.mesh.stages},
                   {"unknowns", solution.mesh.unknowns}};

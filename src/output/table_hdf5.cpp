@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "windlass/output/atomic_file.hpp"
+#include "windlass/output/checksum.hpp"
 #include "windlass/output/error.hpp"
 #include "windlass/output/table.hpp"
 
@@ -168,7 +169,7 @@ void write_tables(const std::filesystem::path& path, const std::vector<Table>& t
   } catch (const OutputError& error) {
     throw OutputError("cannot write " + path.string() + ": " + error.what());
   }
-  replace_file(path, image);
+  replace_file(path, std::string_view(sealed({image.data(), image.size()})));
 }
 
 void read_tables(const std::filesystem::path& path, const std::vector<Table>& tables) {
@@ -176,6 +177,7 @@ void read_tables(const std::filesystem::path& path, const std::vector<Table>& ta
   if (!std::filesystem::exists(path)) throw OutputError("cannot read " + path.string() + ": no such file");
   if (::access(path.c_str(), R_OK) != 0)
     throw OutputError("cannot read " + path.string() + ": " + std::generic_category().message(errno));
+  unsealed(read_file(path), path.string());  // HDF5 opens nothing that is damaged
   const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (id < 0) throw OutputError("cannot read " + path.string() + ": it is truncated or not an HDF5 file");
   const Handle file(id, H5Fclose, "open a file");

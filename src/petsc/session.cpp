@@ -3,8 +3,11 @@
 #include <petscsys.h>
 #include <slepcsys.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <exception>
+#include <string_view>
 #include <vector>
 
 namespace windlass::petsc {
@@ -87,6 +90,32 @@ void set_options(std::span<const std::string> list) {
 }
 
 void ensure_session() { static Session session; }
+
+namespace {
+
+/// PETSc asks for these only when it ends.
+bool asked_for_at_the_end(std::string_view name) {
+  constexpr std::string_view late[] = {"-options_left", "-options_view", "-objects_dump", "-log_view",
+                                       "-malloc_dump",  "-malloc_view",  "-help"};
+  return std::find(std::begin(late), std::end(late), name) != std::end(late);
+}
+
+bool is_option(const std::string& word) {
+  return word.size() > 1 && word[0] == '-' && (std::isalpha(word[1]) || word[1] == '_');
+}
+
+}  // namespace
+
+std::vector<std::string> unused_options() {
+  std::vector<std::string> unused;
+  for (const std::string& word : options()) {
+    if (!is_option(word) || asked_for_at_the_end(word)) continue;
+    PetscBool used = PETSC_FALSE;
+    if (Session::started) check(PetscOptionsUsed(nullptr, word.c_str() + 1, &used));
+    if (!used) unused.push_back(word);
+  }
+  return unused;
+}
 
 bool session_started() { return Session::started; }
 

@@ -23,12 +23,24 @@ BOOST_AUTO_TEST_CASE(a_branch_is_on_disk_and_on_the_closed_form) {
   for (const char* key : {"points", "continuation", "stability", "total"})
     BOOST_TEST(info["timings"].contains(key), key);
   const Table table = read_csv(run / "branches.csv");
-  const Words expected = {"branch",         "point",    "label",
-                          "type",           "T",        "phi",
-                          "R_tot",          "phi_star", "tilt",
-                          "z_span",         "energy",   "index",
-                          "eigenvalue_1",   "ds",       "newton_iterations",
-                          "error_estimate", "topology"};
+  const Words expected = {"branch",
+                          "point",
+                          "label",
+                          "type",
+                          "T",
+                          "phi",
+                          "R_tot",
+                          "phi_star",
+                          "tilt",
+                          "z_span",
+                          "energy",
+                          "self_distance",
+                          "index",
+                          "eigenvalue_1",
+                          "ds",
+                          "newton_iterations",
+                          "error_estimate",
+                          "topology"};
   BOOST_TEST(table.header == expected, boost::test_tools::per_element());
   BOOST_REQUIRE(table.rows.size() > 5u);
   BOOST_TEST(info["timings"]["points"] == table.rows.size());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -100,6 +101,9 @@ struct Solution {
   double tilt = 0.0;         ///< inclination of the mid-point tangent to the plane z = 0 [rad]
   double z_span = 0.0;       ///< max z - min z over the rod [ρ]
   double energy = 0.0;       ///< bending and twisting energy [EI/ρ]
+  /// Closest approach of the rod to itself, see chain::self_distance [ρ]; empty where it nowhere comes back to itself.
+  std::optional<double> self_distance;
+  std::array<double, 2> self_s = {0.0, 0.0};  ///< between these places
   // struts (no cylinder)
   double end_force = 0.0;   ///< thrust positive
   double end_moment = 0.0;  ///< axial end moment

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -15,23 +16,24 @@ namespace windlass::output {
 
 /// One continuation point, a row of branches.csv.
 struct BranchRow {
-  int branch = 0;                      ///< branch number, from 1
-  int point = 0;                       ///< number within the branch, from 1
-  std::string label;                   ///< e.g. "BP1"; empty for an ordinary point
-  std::string type;                    ///< "start", "regular", "fold", "branch_point", "contact", "end"
-  double T = 0.0;                      ///< tension [EI/ρ²]
-  double phi = 0.0;                    ///< capstan angle [rad]
-  double R_tot = 0.0;                  ///< [EI/ρ²]; cylinder scenes
-  double phi_star = 0.0;               ///< [rad]; cylinder scenes
-  double end_force = 0.0;              ///< thrust positive; struts
-  double end_moment = 0.0;             ///< struts
-  double shortening = 0.0;             ///< end shortening / length; struts
-  double tilt = 0.0;                   ///< [rad]
-  double z_span = 0.0;                 ///< [ρ]
-  double energy = 0.0;                 ///< [EI/ρ]
-  std::optional<int> index;            ///< number of negative eigenvalues, where computed
-  std::optional<double> eigenvalue_1;  ///< lowest eigenvalue, where computed
-  double ds = 0.0;                     ///< continuation step that led here
+  int branch = 0;                       ///< branch number, from 1
+  int point = 0;                        ///< number within the branch, from 1
+  std::string label;                    ///< e.g. "BP1"; empty for an ordinary point
+  std::string type;                     ///< "start", "regular", "fold", "branch_point", "contact", "end"
+  double T = 0.0;                       ///< tension [EI/ρ²]
+  double phi = 0.0;                     ///< capstan angle [rad]
+  double R_tot = 0.0;                   ///< [EI/ρ²]; cylinder scenes
+  double phi_star = 0.0;                ///< [rad]; cylinder scenes
+  double end_force = 0.0;               ///< thrust positive; struts
+  double end_moment = 0.0;              ///< struts
+  double shortening = 0.0;              ///< end shortening / length; struts
+  double tilt = 0.0;                    ///< [rad]
+  double z_span = 0.0;                  ///< [ρ]
+  double energy = 0.0;                  ///< [EI/ρ]
+  std::optional<double> self_distance;  ///< closest approach of the rod to itself [ρ], where there is one
+  std::optional<int> index;             ///< number of negative eigenvalues, where computed
+  std::optional<double> eigenvalue_1;   ///< lowest eigenvalue, where computed
+  double ds = 0.0;                      ///< continuation step that led here
   int newton_iterations = 0;
   double error_estimate = 0.0;      ///< relative
   std::string topology;             ///< e.g. "tail edge line edge tail"
@@ -62,7 +64,7 @@ struct SpecialPoint {
   std::optional<SpecialMode> mode;
   std::string before;               ///< contact: topology on the side the branch came from
   std::string after;                ///< contact: topology on the other side
-  std::optional<double> parameter;  ///< value of RunOptions::extra_parameter, where there is one
+  std::optional<double> parameter;  ///< value of the continuation parameter, RunInfo::parameter
 };
 
 /// A branch that could not be followed to where it was asked to go.
@@ -72,6 +74,13 @@ struct LostBranch {
   double T = 0.0;    ///< where it was lost
   double phi = 0.0;
   std::string reason;
+  std::optional<double> parameter;  ///< of the continuation, where it was lost
+};
+
+/// Content of a file as it may stand on disk: its first `bytes` bytes and their checksum.
+struct Stamp {
+  std::size_t bytes = 0;
+  std::string checksum;
 };
 
 /// In-process seconds, measured by the caller.
@@ -88,6 +97,7 @@ struct RunInfo {
   std::string command;  ///< "solve", "continue", "diagram", ...
   std::string scene;    ///< scene name
   bool has_cylinder = true;
+  std::string parameter;           ///< dotted key the branches are followed in; empty: none
   std::string extra_parameter;     ///< dotted key of an extra CSV column, or empty
   std::string status = "running";  ///< "running" | "finished" | "interrupted" | "incomplete"
   nlohmann::ordered_json options = nlohmann::ordered_json::object();
@@ -95,6 +105,8 @@ struct RunInfo {
   nlohmann::ordered_json summary = nlohmann::ordered_json::object();
   std::vector<LostBranch> lost_branches;
   Timings timings;
+  /// Of the other files. Two where a file is being replaced: it holds the one or the other.
+  std::map<std::string, std::vector<Stamp>> stamps;
 };
 
 /// Processor, number of cores, operating system and compiler of this process.
@@ -103,11 +115,15 @@ nlohmann::ordered_json describe_machine();
 nlohmann::ordered_json to_json(const SpecialPoint& point);
 nlohmann::ordered_json to_json(const LostBranch& lost);
 nlohmann::ordered_json to_json(const RunInfo& info);
+/// The text of run.json: with the stamps, and its own checksum.
+std::string info_text(const RunInfo& info);
 
 /// Inverses of to_json. @throws nlohmann::json::exception for a missing or mistyped key
 SpecialPoint special_point_from_json(const nlohmann::ordered_json& json);
 LostBranch lost_branch_from_json(const nlohmann::ordered_json& json);
 RunInfo run_info_from_json(const nlohmann::ordered_json& json);
+/// Does run.json have the checksum of its content?
+bool has_right_checksum(nlohmann::ordered_json info);
 
 /// A finite number, or null. JSON knows neither NaN nor infinity.
 nlohmann::ordered_json finite_or_null(double value);

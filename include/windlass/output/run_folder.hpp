@@ -7,12 +7,16 @@
 #include <vector>
 
 #include "windlass/output/atomic_file.hpp"
+#include "windlass/output/folder_lock.hpp"
 #include "windlass/output/point_store.hpp"
 #include "windlass/output/records.hpp"
 #include "windlass/scene/scene.hpp"
 
 /// The run folder: scene.toml, run.json, branches.csv, special_points.json, points.h5; checkpoint.cbor while a run that
 /// can be gone on with is not over.
+///
+/// One process at a time may write there (FolderLock). Every file has a checksum: points.h5, checkpoint.cbor and
+/// run.json their own, the others in run.json; what does not fit is refused as damaged, unread.
 ///
 /// At every moment, also after SIGKILL or a full disk, the folder is readable. branches.csv grows by one write
 /// a row; the other files are replaced whole (temporary file + rename). points.h5 is replaced when a special
@@ -24,6 +28,7 @@ struct WriterOptions {
   bool force = false;  ///< replace the run in an existing folder (foreign files are kept)
   std::string command = "continue";
   std::string version = "unknown";
+  std::string parameter;        ///< dotted key the branches are followed in; empty: none
   std::string extra_parameter;  ///< dotted key that gets its own, last CSV column; empty: none
   nlohmann::ordered_json options = nlohmann::ordered_json::object();
   /// Longest time between two commits [s]; 0: at every point. Empty: a second, more where writing takes longer.
@@ -84,18 +89,23 @@ class RunWriter {
  private:
   RunWriter() = default;
   void set_pause(std::chrono::duration<double> writing);
+  /// Replaces a file whose checksum stands in run.json, which knows the new one first.
+  void replace_stamped(const char* file, const std::string& text);
   void rewrite_branches();
-  void write_special_points() const;
-  void write_info() const;
+  void write_special_points();
+  void write_info();
 
   std::filesystem::path folder_;
+  FolderLock lock_;
   RunInfo info_;
   AppendFile branches_;
+  std::string branches_text_;  ///< content of branches.csv
   std::vector<BranchRow> rows_;
   std::vector<SpecialPoint> special_points_;
   PointStore store_;
   std::size_t committed_ = 0;
   bool rows_stale_ = false;  ///< rows_ holds what branches.csv does not
+  bool started_ = false;     ///< run.json is on disk
   std::optional<double> save_every_;
   std::chrono::steady_clock::time_point last_commit_{}, last_checkpoint_{};
   std::chrono::duration<double> pause_{1.0};

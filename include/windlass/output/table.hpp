@@ -33,13 +33,14 @@ struct Table {
 /// Writes every table as a group and every column as a dataset with attributes `units`, `shape`, `meaning`.
 ///
 /// The HDF5 image is built in memory and put in place by replace_file: HDF5 itself never writes to disk, so
-/// neither a kill nor a full disk can leave a half-written file or a confused library.
+/// neither a kill nor a full disk can leave a half-written file or a confused library. A checksum follows the image,
+/// beyond what HDF5 reads.
 /// @throws OutputError when the file cannot be written
 void write_tables(const std::filesystem::path& path, const std::vector<Table>& tables,
                   const std::string& about);
 
 /// Fills the vectors that the columns of `tables` view from the file.
-/// @throws OutputError naming the file when it is unreadable, truncated, or lacks a column
+/// @throws OutputError naming the file when it is unreadable, truncated, damaged, or lacks a column
 void read_tables(const std::filesystem::path& path, const std::vector<Table>& tables);
 
 }  // namespace windlass::output

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 /// PETSc and SLEPc: their lifetime and their errors, as C++ sees them.
 namespace windlass::petsc {
@@ -30,6 +31,10 @@ void set_options(std::span<const std::string> options);
 /// handle calls it before creating one; calling it again costs a branch.
 /// @throws petsc::Error
 void ensure_session();
+
+/// Those of the user's options that nothing has asked for so far, e.g. "-foo_bar": misspelt, or of a solver that did not
+/// run. All of them where PETSc was not started.
+std::vector<std::string> unused_options();
 
 /// True from the first `ensure_session()` on.
 bool session_started();

@@ -28,17 +28,45 @@
 
   // ---- diagram --------------------------------------------------------------------------------------------------
 
-  /** Stretches of a branch with one stability; each ends at the first point of the next. */
+  /** Stretches of a branch with one stability. It changes at a point: the special one where there is one. */
   function arms(branch) {
-    const kind = (k) => (branch.index[k] === null ? "unknown" : branch.index[k] === 0 ? "stable" : "unstable");
+    const kind = (index) => (index === null ? "unknown" : index === 0 ? "stable" : "unstable");
+    if (branch.between.length === 0) return [{ kind: kind(branch.index[0]), from: 0, to: 0 }];
     const list = [];
-    for (let begin = 0; begin < branch.names.length; ) {
-      let end = begin;
-      while (end + 1 < branch.names.length && kind(end + 1) === kind(begin)) ++end;
-      list.push({ kind: kind(begin), from: begin, to: Math.min(end + 1, branch.names.length - 1) });
-      begin = end + 1;
-    }
+    branch.between.forEach((index, k) => {
+      const last = list[list.length - 1];
+      if (last && last.kind === kind(index)) last.to = k + 1;
+      else list.push({ kind: kind(index), from: k, to: k + 1 });
+    });
     return list;
+  }
+
+  /** The shown point nearest to a place of the diagram (in pixels from its upper left corner); "" where there is none.
+      At the same place a special point comes first: an ordinary one of another branch may stand there too. */
+  function nearest(left, top, xaxis, yaxis) {
+    const inside = (pixel, axis) => Number.isFinite(pixel) && pixel >= 0 && pixel <= axis._length;
+    const special = new Set(data.special.map((s) => s.label));
+    let best = { name: "", distance: Infinity };
+    data.branches.filter((b) => !state.hidden.has(b.branch)).forEach((b) => {
+      const x = column(b, state.x), y = column(b, state.y);
+      b.names.forEach((name, k) => {
+        if (x[k] === null || y[k] === null) return;
+        const px = xaxis.d2p(x[k]), py = yaxis.d2p(y[k]);
+        if (!inside(px, xaxis) || !inside(py, yaxis)) return;
+        const distance = Math.hypot(px - left, py - top) - (special.has(name) ? 0.5 : 0);
+        if (distance < best.distance) best = { name, distance };
+      });
+    });
+    return best.name;
+  }
+
+  /** A click anywhere in the diagram chooses the nearest visible point. */
+  function click(event) {
+    const { xaxis, yaxis } = element("diagram")._fullLayout, box = element("diagram").getBoundingClientRect();
+    const left = event.clientX - box.left - xaxis._offset, top = event.clientY - box.top - yaxis._offset;
+    if (left < 0 || top < 0 || left > xaxis._length || top > yaxis._length) return; // the legend, an axis
+    const name = nearest(left, top, xaxis, yaxis);
+    if (name) select(name);
   }
 
   function armTraces(branch) {
@@ -315,8 +343,9 @@
 
   function specialTable() {
     if (data.special.length === 0) return;
-    const value = capstan ? (s) => [short(s.T), short(s.phi)] : () => [];
-    const head = ["", "type", "branch", ...(capstan ? ["T", "φ"] : []), "± ", "mode or contact"];
+    const own = data.info.parameter && !(capstan && ["load.tension", "load.angle"].includes(data.info.parameter));
+    const value = (s) => [...(capstan ? [short(s.T), short(s.phi)] : []), ...(own ? [short(s.parameter)] : [])];
+    const head = ["", "type", "branch", ...(capstan ? ["T", "φ"] : []), ...(own ? [data.info.parameter] : []), "± ", "mode or contact"];
     const table = element("special"), row = table.createTHead().insertRow(), body = table.createTBody();
     head.forEach((text) => { const cell = document.createElement("th"); cell.textContent = text; row.append(cell); });
     data.special.forEach((s) => {
@@ -345,7 +374,7 @@
     branchBoxes();
     specialTable();
     readAxes();
-    element("diagram").on("plotly_click", (event) => event.points[0].customdata && select(event.points[0].customdata));
+    element("diagram").addEventListener("click", click);
     element("diagram").on("plotly_hover", (event) => {
       if (element("follow").checked && event.points[0].customdata) select(event.points[0].customdata);
     });

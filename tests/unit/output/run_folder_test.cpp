@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(what_is_written_is_read_back_exactly) {
     writer.add_special_point(
         {"BP1", "branch_point", 1, 0.7, two_pi, 1e-9, 1, output::SpecialMode{"out", "odd"}, "", "", {}});
     writer.add_special_point({"C1", "contact", 1, 0.5, two_pi, 1e-9, 1, {}, "line, one", "touch", {}});
-    writer.add_lost_branch({2, "BP1", 0.4, two_pi, "step length below its minimum"});
+    writer.add_lost_branch({2, "BP1", 0.4, two_pi, "step length below its minimum", {}});
     writer.finish("finished", {2, 0.25, 0.5, 1.5}, {{"branches", 1}});
   }
   const output::Run run = output::read_run(temporary / "runs/a");
@@ -122,17 +122,19 @@ BOOST_AUTO_TEST_CASE(columns_are_those_promised) {
   const test::TemporaryFolder temporary;
   auto scene = test::capstan_scene(1.0, two_pi);
   RunWriter::create(temporary / "capstan", scene, {});
-  BOOST_TEST(content(temporary / "capstan/branches.csv") ==
-             "branch,point,label,type,T,phi,R_tot,phi_star,tilt,z_span,energy,index,eigenvalue_1,ds,"
-             "newton_iterations,error_estimate,topology\n");
+  BOOST_TEST(
+      content(temporary / "capstan/branches.csv") ==
+      "branch,point,label,type,T,phi,R_tot,phi_star,tilt,z_span,energy,self_distance,index,eigenvalue_1,ds,"
+      "newton_iterations,error_estimate,topology\n");
   scene.has_cylinder = false;
   WriterOptions options;
   options.extra_parameter = "ends.twist";
   RunWriter::create(temporary / "strut", scene, options);
-  BOOST_TEST(content(temporary / "strut/branches.csv") ==
-             "branch,point,label,type,T,phi,end_force,end_moment,shortening,tilt,z_span,energy,index,"
-             "eigenvalue_1,ds,"
-             "newton_iterations,error_estimate,topology,ends.twist\n");
+  BOOST_TEST(
+      content(temporary / "strut/branches.csv") ==
+      "branch,point,label,type,T,phi,end_force,end_moment,shortening,tilt,z_span,energy,self_distance,index,"
+      "eigenvalue_1,ds,"
+      "newton_iterations,error_estimate,topology,ends.twist\n");
 }
 
 BOOST_AUTO_TEST_CASE(no_file_holds_nan_or_inf) {

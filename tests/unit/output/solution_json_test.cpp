@@ -20,12 +20,27 @@ BOOST_AUTO_TEST_CASE(the_object_has_the_promised_keys) {
   auto scene = test::capstan_scene(1.0, 2 * std::numbers::pi);
   auto solution = test::planar_capstan(1.0, 2 * std::numbers::pi);
   solution.F0 = 0.3 * solution.R_tot;
-  solution.stability = equilibrium::Stability{0, 0, {0.5}, false, {}};
+  solution.stability = equilibrium::Stability{0, 0, {0.5}, 0.0, false, {}};
   const auto json = output::to_json(solution, scene);
-  const std::vector<std::string> expected = {
-      "parameters",     "model", "model_reason", "converged", "newton_iterations", "R_tot",     "F0",
-      "phi_star",       "tilt",  "z_span",       "energy",    "contact",           "stability", "invariants",
-      "error_estimate", "mesh",  "seconds"};
+  const std::vector<std::string> expected = {"parameters",
+                                             "model",
+                                             "model_reason",
+                                             "converged",
+                                             "newton_iterations",
+                                             "R_tot",
+                                             "F0",
+                                             "phi_star",
+                                             "tilt",
+                                             "z_span",
+                                             "energy",
+                                             "self_distance",
+                                             "contact",
+                                             "stability",
+                                             "invariants",
+                                             "error_estimate",
+                                             "tolerance_met",
+                                             "mesh",
+                                             "seconds"};
   BOOST_TEST(keys(json) == expected, boost::test_tools::per_element());
   BOOST_TEST(json["contact"]["arcs"].size() == 3u);
   BOOST_TEST(json["contact"]["arcs"][1]["kind"] == "line");
