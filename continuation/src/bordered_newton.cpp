@@ -66,20 +66,26 @@ bool StoppingRule::last(double length, double residual, double state_size) {
   const double tolerance = options_.newton_tolerance;
   // What rounding may leave where the state has large entries; taken only once corrections no longer shrink.
   const double rounding = tolerance * std::max(1.0, state_size);
+  // Where F is all rounding, corrections are what nearly singular equations make of it, and no other state is better.
+  constexpr double rounded_residual = 1e-4, visible = 1e-6;
+  const bool exhausted = residual <= rounded_residual * options_.residual_tolerance && length <= visible;
   bool stagnant = false;
   if (taken_ > 0) {
-    if (contraction(length) > 1.0 && length > 10.0 * rounding)
+    // A metric that leaves out some unknowns (forces, say) may hold small corrections before larger ones on a way that
+    // converges: F tells.
+    constexpr double falling = 0.1;
+    if (contraction(length) > 1.0 && length > 10.0 * rounding && !exhausted &&
+        residual > falling * previous_residual_)
       throw std::runtime_error("Newton's corrections grow");
     stagnant = contraction(length) > 0.2;
   }
-  // Equations that are nearly singular turn a residual that is all rounding into corrections above the tolerance.
-  const bool exhausted = stagnant && residual <= 1e-4 * options_.residual_tolerance;
-  const bool small = length <= tolerance || (stagnant && length <= (exhausted ? 10.0 : 1.0) * rounding);
+  const bool small = length <= tolerance || (stagnant && (exhausted || length <= rounding));
   // Where corrections are this small twice, what is left of F is the rounding of its large terms (those of an arc
   // about to vanish, say).
   const bool rounded = taken_ > 0 && previous_ <= tolerance && length <= 0.1 * tolerance;
   ++taken_;
   previous_ = length;
+  previous_residual_ = residual;
   return small && (rounded || residual <= options_.residual_tolerance);
 }
 
@@ -87,7 +93,7 @@ namespace {
 
 void iterate(BorderedSystem& system, const Options& options, CorrectorReport& report) {
   StoppingRule rule(options);
-  double first = 0.0;
+  double first = 0.0, first_residual = 0.0;
   for (int k = 0;; ++k) {
     const Vector& defect = system.defect();
     report.residual = system.residual();
@@ -95,8 +101,10 @@ void iterate(BorderedSystem& system, const Options& options, CorrectorReport& re
     if (fresh) system.factor();
     Vector delta = system.solve(defect);
     double length = system.length(delta);
-    if (k == 0) first = length;
-    if (k == 1) report.contraction = length / first;
+    // F tells how fast it goes where the metric leaves out most of the corrections.
+    if (k == 0) first = length, first_residual = report.residual;
+    if (k == 1)
+      report.contraction = std::min(length / first, report.residual / std::max(first_residual, 1e-300));
     if (k > 0 && rule.slow(length)) {
       system.factor();
       delta = system.solve(defect);

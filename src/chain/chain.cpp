@@ -19,6 +19,17 @@ namespace {
 /// An infinite tail is sampled this many decay lengths √(B/T) out: exp(−40) is below rounding.
 constexpr double tail_decay_lengths = 40.0;
 
+/// A contact's place on the cylinder is its first coordinate, the angle, and in space its second, the height.
+constexpr int rests = 3, rest_of_s = 0, rest_of_angle = 1, rest_of_height = 2;
+
+/// value + rest + change, rounded once; what is left becomes the new rest (Knuth's two-sum).
+void add(double value, double rest, double change, double& new_value, double& new_rest) {
+  const double sum = value + change, part = sum - value;
+  const double error = (value - (sum - part)) + (change - part) + rest;
+  new_value = sum + error;
+  new_rest = error - (new_value - sum);
+}
+
 /// Increments of the coordinates that vary as increments of all of them.
 const double* widened(const double* kept_step, const std::vector<int>& kept,
                       std::array<double, contact::max_coordinates>& all) {
@@ -43,6 +54,10 @@ Chain::Chain(std::vector<std::unique_ptr<Joint>> joints, std::vector<double> fix
   if (numbering_.slide >= 0) {
     slide_at_ = ambient_size_;
     ambient_size_ += 2;
+  }
+  for (int j = 0; j < joint_count(); ++j) {
+    rest_at_.push_back(is_contact(j) ? ambient_size_ : -1);
+    if (is_contact(j)) ambient_size_ += rests;
   }
   for (const Link& link : links_) {
     force_at_.push_back(ambient_size_);
@@ -139,7 +154,34 @@ double Chain::arclength(const VectorXd& x, const Loads& loads, int joint) const 
 }
 
 void Chain::set_arclength(VectorXd& x, int joint, double s) const {
-  if (locates(joint)) x(joint_at_[joint] + joints_[joint]->ambient()) = s;
+  if (!locates(joint)) return;
+  x(joint_at_[joint] + joints_[joint]->ambient()) = s;
+  if (is_contact(joint)) x(rest_at_[joint] + rest_of_s) = 0.0;
+}
+
+double Chain::length(const VectorXd& x, const Loads& loads, int link) const {
+  const auto rest = [&](int j) { return is_contact(j) ? x(rest_at_[j] + rest_of_s) : 0.0; };
+  return arclength(x, loads, link + 1) - arclength(x, loads, link) + (rest(link + 1) - rest(link));
+}
+
+contact::SmallVector Chain::rise(const VectorXd& x, const Placed& placed, int link) const {
+  if (!is_contact(link) || !is_contact(link + 1)) return placed.right.x - placed.left.x;
+  const auto difference = [&](int coordinate, int rest) {
+    return coordinates(x, link + 1)[coordinate] - coordinates(x, link)[coordinate] +
+           (x(rest_at_[link + 1] + rest) - x(rest_at_[link] + rest));
+  };
+  const bool spatial = joints_[link]->height_coordinate() >= 0;
+  const double turn = difference(0, rest_of_angle), middle = coordinates(x, link)[0] + 0.5 * turn;
+  const Eigen::Index size = placed.left.x.size();
+  SmallVector out(size);
+  if (size == (spatial ? 2 : 1)) {
+    out(0) = turn;  // of a line, on the unrolled cylinder
+  } else {
+    const double chord = 2.0 * std::sin(0.5 * turn);  // of places (sin, −cos)
+    out.head(2) << chord * std::cos(middle), chord * std::sin(middle);
+  }
+  if (spatial) out(size - 1) = difference(1, rest_of_height);
+  return out;
 }
 
 VectorXd Chain::force(const VectorXd& x, const Loads& loads, int link) const {
@@ -157,7 +199,7 @@ Chain::Placed Chain::place(const VectorXd& x, const Loads& loads, int link) cons
   p.right = attachment(Purpose::equilibrium, x, loads, link + 1, Side::left);
   p.n = force(x, loads, link);
   p.interior = interior(x, link);
-  p.length = arclength(x, loads, link + 1) - arclength(x, loads, link);
+  p.length = length(x, loads, link);
   if (std::isinf(p.length)) p.length = tail_decay_lengths / std::sqrt(p.n.norm());
   // Between contacts the equations hold, analytically, for lengths past zero too, so that the event can be located
   // from both sides; only zero itself is singular and is stepped over. A tail must exist.
@@ -174,7 +216,11 @@ VectorXd Chain::retract(const VectorXd& x, const VectorXd& dx) const {
     const Joint& joint = *joints_[j];
     joint.retract(coordinates(x, j), widened(dx.data() + numbering_.coordinate[j], kept_[j], step),
                   coordinates(out, j));
-    if (numbering_.location[j] >= 0) out(joint_at_[j] + joint.ambient()) += dx(numbering_.location[j]);
+    const double ds = numbering_.location[j] >= 0 ? dx(numbering_.location[j]) : 0.0;
+    if (is_contact(j))
+      move_contact(x, j, step.data(), ds, out);
+    else if (numbering_.location[j] >= 0)
+      out(joint_at_[j] + joint.ambient()) += ds;
   }
   if (slide_at_ >= 0) out(slide_at_ + 1) += dx(numbering_.slide);
   for (int i = 0; i < link_count(); ++i) {
@@ -191,6 +237,16 @@ VectorXd Chain::retract(const VectorXd& x, const VectorXd& dx) const {
     }
   }
   return out;
+}
+
+void Chain::move_contact(const VectorXd& x, int joint, const double* step, double ds, VectorXd& out) const {
+  const Eigen::Index at = joint_at_[joint], rest = rest_at_[joint];
+  const auto move = [&](Eigen::Index place, int k, double change) {
+    add(x(place), x(rest + k), change, out(place), out(rest + k));
+  };
+  move(at, rest_of_angle, step[0]);
+  if (joints_[joint]->height_coordinate() >= 0) move(at + 1, rest_of_height, step[1]);
+  if (locates(joint)) move(at + joints_[joint]->ambient(), rest_of_s, ds);
 }
 
 contact::Joint::Location Chain::location(const VectorXd& x, int j) const {
@@ -217,7 +273,7 @@ VectorXd Chain::residual(const VectorXd& x, const Loads& loads) const {
     f.segment(right, p.right.dq.cols()) +=
         p.right.dq.transpose() * g.segment(d, d) + p.right.dx.transpose() * p.n;
     if (links_[i].pull == 0)
-      f.segment(numbering_.force[i], forces) = g.segment(2 * d, forces) + p.right.x - p.left.x;
+      f.segment(numbering_.force[i], forces) = g.segment(2 * d, forces) + rise(x, p, i);
   }
   for (int j = 0; j < joint_count(); ++j) {
     const SmallVector load = joints_[j]->dead_load(coordinates(x, j), loads);

@@ -52,7 +52,7 @@ double longest_part(const chain::Chain& chain, const Vector& x, const contact::L
     return row >= 0 ? dx(row) : 0.0;
   };
   for (int i = 0; i < chain.link_count(); ++i) {
-    const double length = chain.arclength(x, at, i + 1) - chain.arclength(x, at, i);
+    const double length = chain.length(x, at, i);
     const double change = shift(i + 1) - shift(i);
     if (length > 0.0 && change < 0.0) part = std::min(part, 0.5 * length / -change);
   }
@@ -87,7 +87,7 @@ bool solve_at_length(RodProblem& problem, Vector& x, Vector& p, int link, double
   int stalls = 0;
   for (int k = 0; k < 20; ++k) {
     const contact::Loads at = problem.loads(p);
-    const double now = problem.chain().arclength(x, at, link + 1) - problem.chain().arclength(x, at, link);
+    const double now = problem.chain().length(x, at, link);
     const Vector goal = Vector::Constant(1, length - now);
     const double step = newton_step(problem, x, p, fix_length(problem, x, p, link), goal, true);
     // Converged, or as far as rounding lets a short arc: the increment is tiny and no longer falls.

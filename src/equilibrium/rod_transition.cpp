@@ -39,7 +39,15 @@ Entry draft(const RodProblem& from, const Successor& next, const chain::Profile&
     const double length = std::min(std::abs(next.s[i + 1] - next.s[i]), 40.0);
     meshes[i].nodes = chain::uniform_mesh(std::max(elements, static_cast<int>(std::ceil(length))));
   }
-  for (int link : next.opened) meshes[link].nodes = chain::uniform_mesh(elements);
+  // Rounding of frames becomes one of curvatures over the distance of nodes: a short arc, nearly a polynomial, has few.
+  constexpr double long_enough = 0.05;  // for another element
+  for (std::size_t i = next.topology.half ? 1 : 0; i < meshes.size(); ++i) {
+    const double length = std::min(std::abs(next.s[i + 1] - next.s[i]), 40.0);
+    const int most = 1 + static_cast<int>(length / long_enough);
+    if (meshes[i].stages > 0 && static_cast<int>(meshes[i].nodes.size()) > most + 1)
+      meshes[i].nodes = chain::uniform_mesh(most);
+  }
+  for (int link : next.opened) meshes[link].nodes = chain::uniform_mesh(1);
   const scene::Scene scene = from.scene_at(p);
   choose_tails(meshes, next.topology, from.rod(), loads_of(scene), next.s);
   auto problem = std::make_shared<RodProblem>(scene, from.spatial(), next.topology, meshes, from.keys());
@@ -102,22 +110,25 @@ bool settle_beside(Entry& entry) {
 }
 
 double length_of(Entry& entry, int link) {
-  const contact::Loads at = entry.problem->loads(entry.p);
-  return entry.problem->chain().arclength(entry.x, at, link + 1) -
-         entry.problem->chain().arclength(entry.x, at, link);
+  return entry.problem->chain().length(entry.x, entry.problem->loads(entry.p), link);
 }
 
-/// Away from the event, as far as the contacts hold: near it everything but the length is determined badly.
-void lengthen(Entry& entry, int link) {
-  constexpr double enough = 0.12, factor = 1.5;
-  for (double length = factor * length_of(entry, link); length < factor * enough; length *= factor) {
-    Entry longer = entry;
+/// Brings an opened arc to the length that it is entered with, as far as the contacts hold: longer ones lie further from
+/// the event, in shorter ones rounding moves the edges, by its size over the edges' force, length³.
+void adjust_length(Entry& entry, int link) {
+  constexpr double entered = 0.06, factor = 1.5;
+  const double now = length_of(entry, link);
+  const double change = now > factor * entered ? 1.0 / factor : now < entered ? factor : 1.0;
+  if (change == 1.0) return;
+  for (double length = change * now; change > 1.0 ? length < factor * entered : length > entered;
+       length *= change) {
+    Entry next = entry;
     try {
-      if (!solve_at_length(*entry.problem, longer.x, longer.p, link, length) || !holds(longer)) return;
+      if (!solve_at_length(*entry.problem, next.x, next.p, link, length) || !holds(next)) return;
     } catch (const std::exception&) {
       return;
     }
-    entry = longer;
+    entry = next;
   }
 }
 
@@ -132,7 +143,7 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, i
   const Topology& topology = entry.problem->topology();
   const std::vector<ContactEvent> events = contact_events(shape, topology);
   if (admissible(events)) {
-    lengthen(entry, opened.front());
+    adjust_length(entry, opened.front());
     return entry;
   }
   const auto worst = std::min_element(events.begin(), events.end(),

@@ -109,7 +109,7 @@ class StoppingRule {
 
   const Options& options_;
   int taken_ = 0;
-  double previous_ = 0.0;
+  double previous_ = 0.0, previous_residual_ = 0.0;
 };
 
 /// Solves F = 0 with borders from a guess. A problem that has a nonlinear solver of its own hands it out by

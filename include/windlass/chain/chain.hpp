@@ -33,6 +33,10 @@ struct Link {
 /// every arc. Increments dx follow the same order with tangent sizes, less what gauges and symmetry keep (and c, which is
 /// given). The first block (joints and forces, `dense_size()`) couples the arcs; the rest is condensed arc by arc.
 ///
+/// Places of contacts, their arclengths and coordinates on the cylinder, are kept to twice the digits of a double: each has
+/// a rest beside it in the state. The forces in an arc of length ℓ between two contacts follow from the difference of their
+/// places, divided by ℓ³: to full precision in arcs that have just opened, too.
+///
 /// Count of equations, the same as of unknowns: a joint gives one balance equation a coordinate and one location
 /// condition if it locates; sliding gives its gauge for λ; a link with unknown n gives dim(n) closure equations X_b − X_a = ∫ d ds; an arc gives its
 /// interior collocation equations.
@@ -74,6 +78,8 @@ class Chain {
   double& slide_place(VectorXd& x) const { return x(slide_at_); }
   double slide_place(const VectorXd& x) const { return x(slide_at_); }
   double holding_force(const VectorXd& x) const { return holds_slide() ? x(slide_at_ + 1) : 0.0; }
+  /// Length of a link: the difference of its ends' arclengths, without loss of digits where they are close.
+  double length(const VectorXd& x, const Loads& loads, int link) const;
   /// Row of the gauge, and place of λ in an increment.
   Eigen::Index slide_row() const { return numbering_.slide; }
   /// Share of joint j in the gauge: ½, ½; 1 where one contact is all there is.
@@ -188,6 +194,14 @@ class Chain {
   MatrixXd condensed_variation(Purpose purpose, const Numbering& numbering, const VectorXd& x,
                                const Loads& loads) const;
   contact::Joint::Location location(const VectorXd& x, int joint) const;
+  bool is_contact(int joint) const {
+    return joints_[joint]->kind() == contact::JointKind::touch ||
+           joints_[joint]->kind() == contact::JointKind::edge;
+  }
+  /// X_b − X_a of a link's ends.
+  contact::SmallVector rise(const VectorXd& x, const Placed& placed, int link) const;
+  /// Adds to a contact's place, rests included.
+  void move_contact(const VectorXd& x, int joint, const double* step, double ds, VectorXd& out) const;
   /// Condensed Hessian plus the part that is antisymmetric because frames do not commute.
   static bvp::EndsMatrix with_commutator(const Arc& arc, const bvp::EndsMatrix& symmetric,
                                          const bvp::EndsVector& gradient);
@@ -222,6 +236,7 @@ class Chain {
   bool in_contact_ = false;
   Eigen::Index slide_at_ = -1;                                      ///< place of (c, λ) in the state
   std::vector<Eigen::Index> joint_at_, force_at_, interior_at_;     // offsets in the state
+  std::vector<Eigen::Index> rest_at_;  ///< rests of (s, angle, height) in the state, of contacts only
   std::vector<Eigen::Index> joint_row_, force_row_, interior_row_;  // offsets in the increment
   Eigen::Index ambient_size_ = 0, size_ = 0, dense_size_ = 0, geometric_size_ = 0;
 
