@@ -62,13 +62,14 @@ bool StoppingRule::slow(double length) const {
          (taken_ > 1 && theta > 0.1 && length * theta > tolerance);  // they hardly converge
 }
 
-bool StoppingRule::last(double length, double residual, double state_size) {
+bool StoppingRule::last(double length, double residual, double state_size, bool fresh) {
   const double tolerance = options_.newton_tolerance;
   // What rounding may leave where the state has large entries; taken only once corrections no longer shrink.
   const double rounding = tolerance * std::max(1.0, state_size);
   // Where F is all rounding, corrections are what nearly singular equations make of it, and no other state is better.
   constexpr double rounded_residual = 1e-4, visible = 1e-6;
-  const bool exhausted = residual <= rounded_residual * options_.residual_tolerance && length <= visible;
+  const bool exhausted =
+      fresh && residual <= rounded_residual * options_.residual_tolerance && length <= visible;
   bool stagnant = false;
   if (taken_ > 0) {
     // A metric that leaves out some unknowns (forces, say) may hold small corrections before larger ones on a way that
@@ -111,7 +112,7 @@ void iterate(BorderedSystem& system, const Options& options, CorrectorReport& re
       length = system.length(delta);
       fresh = true;
     }
-    const bool done = rule.last(length, report.residual, system.state_size());
+    const bool done = rule.last(length, report.residual, system.state_size(), fresh);
     report.increment = length;
     if (done && fresh && rule.negligible(length)) {
       report.factored_here = true;

@@ -136,7 +136,7 @@ BOOST_AUTO_TEST_CASE(a_problem_may_bring_its_own_solver) {
         const Vector& defect = system.defect();
         system.factor();
         const Vector delta = system.solve(defect);
-        report.converged = rule.last(system.length(delta), system.residual(), system.state_size());
+        report.converged = rule.last(system.length(delta), system.residual(), system.state_size(), true);
         system.add(delta);
       }
       return report;

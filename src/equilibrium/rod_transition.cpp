@@ -39,15 +39,7 @@ Entry draft(const RodProblem& from, const Successor& next, const chain::Profile&
     const double length = std::min(std::abs(next.s[i + 1] - next.s[i]), 40.0);
     meshes[i].nodes = chain::uniform_mesh(std::max(elements, static_cast<int>(std::ceil(length))));
   }
-  // Rounding of frames becomes one of curvatures over the distance of nodes: a short arc, nearly a polynomial, has few.
-  constexpr double long_enough = 0.05;  // for another element
-  for (std::size_t i = next.topology.half ? 1 : 0; i < meshes.size(); ++i) {
-    const double length = std::min(std::abs(next.s[i + 1] - next.s[i]), 40.0);
-    const int most = 1 + static_cast<int>(length / long_enough);
-    if (meshes[i].stages > 0 && static_cast<int>(meshes[i].nodes.size()) > most + 1)
-      meshes[i].nodes = chain::uniform_mesh(most);
-  }
-  for (int link : next.opened) meshes[link].nodes = chain::uniform_mesh(1);
+  for (int link : next.opened) meshes[link].nodes = chain::uniform_mesh(elements);
   const scene::Scene scene = from.scene_at(p);
   choose_tails(meshes, next.topology, from.rod(), loads_of(scene), next.s);
   auto problem = std::make_shared<RodProblem>(scene, from.spatial(), next.topology, meshes, from.keys());

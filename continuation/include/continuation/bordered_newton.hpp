@@ -97,9 +97,10 @@ class StoppingRule {
   /// Of a correction found with an old factorisation: would three more such corrections not do?
   bool slow(double length) const;
 
-  /// Takes in a correction at a state with this residual and size; true if it is the last one.
+  /// Takes in a correction at a state with this residual and size, `fresh` if found with that state's own factorisation;
+  /// true if it is the last one.
   /// @throws std::runtime_error if corrections grow
-  bool last(double length, double residual, double state_size);
+  bool last(double length, double residual, double state_size, bool fresh);
 
   /// So small a correction need not be added: the factorisation then belongs to the state exactly.
   bool negligible(double length) const { return length <= 1e-3 * options_.newton_tolerance; }
