@@ -200,14 +200,16 @@ void search(Segment& segment, const Sample& lo, const Sample& hi, int depth, std
       if (middle) break;
     }
   }
-  if (middle) {
-    const std::size_t before = found.size();
-    search(segment, lo, *middle, depth + 1, found);
-    search(segment, *middle, hi, depth + 1, found);
-    if (found.size() > before) return;
-    // Halving made the change vanish: the count at one end was roundoff close to an eigenvalue's touch.
-    return;
-  }
+  if (!middle) return found.push_back(unpolished(segment, lo, hi, multiplicity, why));
+  // Where halving makes the change vanish, the count at one end was roundoff close to an eigenvalue's touch.
+  search(segment, lo, *middle, depth + 1, found);
+  search(segment, *middle, hi, depth + 1, found);
+}
+
+}  // namespace
+
+Located unpolished(Segment& segment, const Sample& lo, const Sample& hi, int multiplicity,
+                   const std::string& why) {
   Located located;
   located.type = PointType::branch_point;
   located.s = 0.5 * (lo.s + hi.s);
@@ -219,10 +221,8 @@ void search(Segment& segment, const Sample& lo, const Sample& hi, int depth, std
   located.index_after = hi.index;
   located.multiplicity = multiplicity;
   located.note = "not polished: " + (why.empty() ? segment.failure() : why);
-  found.push_back(std::move(located));
+  return located;
 }
-
-}  // namespace
 
 std::vector<Located> locate_branch_points(Segment& segment, const Sample& lo, const Sample& hi) {
   std::vector<Located> found;

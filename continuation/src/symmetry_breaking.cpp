@@ -54,21 +54,6 @@ bool add(Segment& segment, const Sample& lo, const Sample& hi, Piece piece, std:
   return !piece.found.empty();
 }
 
-Located bracketed(Segment& segment, const Sample& lo, const Sample& hi, const std::string& why) {
-  Located located;
-  located.type = PointType::branch_point;
-  located.s = 0.5 * (lo.s + hi.s);
-  located.lo = lo.s;
-  located.hi = hi.s;
-  located.sample = lo;
-  located.precision = std::abs(segment.parameter(hi) - segment.parameter(lo));
-  located.index = lo.index;
-  located.index_after = hi.index;
-  located.multiplicity = std::abs(hi.breaking_index - lo.breaking_index);
-  located.note = "not polished: " + (why.empty() ? segment.failure() : why);
-  return located;
-}
-
 /// A branch point of the restricted problem inside the bracket, and samples on both sides as close as Newton's method goes.
 struct Together {
   const Located* point = nullptr;
@@ -116,7 +101,7 @@ void search(Segment& segment, const Sample& lo, const Sample& hi, int depth,
     const double width = 16.0 * (hi.s - lo.s);
     const auto here = [&](const Located& point) { return point.s > lo.s - width && point.s < hi.s + width; };
     if (std::none_of(restricted.begin(), restricted.end(), here))
-      found.push_back(bracketed(segment, lo, hi, why));
+      found.push_back(unpolished(segment, lo, hi, std::abs(hi.breaking_index - lo.breaking_index), why));
     return;
   }
   search(segment, lo, *middle, depth + 1, restricted, found);

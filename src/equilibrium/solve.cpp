@@ -39,8 +39,6 @@ Solution finish(Started& started, const std::string& reason) {
   return solution;
 }
 
-bool symmetric(const scene::Scene& scene) { return scene.half_turn(); }
-
 /// Least thrust at which the straight strut may bow, up to that of twice Euler's; nullopt: none, or unstable without any.
 std::optional<double> buckling_thrust(const scene::Scene& scene) {
   scene::Scene idle = scene;
@@ -72,9 +70,9 @@ Flat flat_state(const scene::Scene& scene, const std::vector<std::string>& keys)
   try {
     if (scene.has_cylinder) {
       flat.planar = cold_start(scene, false, true, keys);
-      flat.rod = lift(*flat.planar->problem, flat.planar->x, flat.planar->p, symmetric(scene));
+      flat.rod = lift(*flat.planar->problem, flat.planar->x, flat.planar->p, scene.half_turn());
     } else {
-      flat.rod = cold_start(scene, true, symmetric(scene), keys);
+      flat.rod = cold_start(scene, true, scene.half_turn(), keys);
     }
     flat.index = flat.rod->problem->total_index(flat.rod->x, flat.rod->p);
   } catch (const NoContact& none) {
@@ -111,7 +109,7 @@ bool is(const FoundState& state, const Vector& fingerprint) {
 /// @param finished  the state chosen, on its rung and with the reason
 Equilibria choose(const scene::Scene& scene, const Flat& flat, const std::vector<std::string>& keys,
                   const std::function<Solution(FoundState&)>& finished) {
-  Search found = search(scene, true, symmetric(scene), keys);
+  Search found = search(scene, true, scene.half_turn(), keys);
   if (flat.rod) include(found, *flat.rod);
   if (found.states.empty()) {
     const std::string none = flat.why + "; nor in space, searched: " + found.searched;
@@ -171,7 +169,7 @@ Solution solve_flat(const scene::Scene& scene, Started& planar) {
 
 /// @param kirchhoff  the rung is asked for: the flat state, too, is given on it
 Equilibria solve_capstan(const scene::Scene& scene, const std::vector<std::string>& keys, bool kirchhoff) {
-  const bool half = symmetric(scene);
+  const bool half = scene.half_turn();
   Flat flat = flat_state(scene, keys);
   const Vector print = flat.rod ? flat.rod->problem->fingerprint(flat.rod->x, flat.rod->p) : Vector();
   const auto finished = [&](FoundState& best) {
@@ -230,7 +228,7 @@ Equilibria on_rung(const scene::Scene& scene) {
     case ModelKind::planar:
       break;
   }
-  Started planar = cold_start(scene, false, closed_form || symmetric(scene), keys);
+  Started planar = cold_start(scene, false, closed_form || scene.half_turn(), keys);
   const int index = planar.problem->total_index(planar.x, planar.p);
   Equilibria out = only(finish(planar, "asked for"), scene, index);
   if (closed_form) out.answer.model = "closed_form";

@@ -48,6 +48,10 @@ std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, co
 /// point in it.
 std::vector<Located> locate_branch_points(Segment& segment, const Sample& lo, const Sample& hi);
 
+/// A branch point that is known by its bracket only; why: what kept it from being located, empty: the segment's failure.
+Located unpolished(Segment& segment, const Sample& lo, const Sample& hi, int multiplicity,
+                   const std::string& why);
+
 /// The branch points between two completed samples whose kernel breaks the symmetry the segment's problem is
 /// restricted to: its own equations are regular there. The interval is halved on the change of the breaking
 /// index; in it the unrestricted problem follows the same branch, and the point is located there, where it is
