@@ -39,7 +39,7 @@ bool special(const Point& point) {
          point.type == PointType::event;
 }
 
-/// [EI/ρ²]. Branch points that could only be bracketed are good to 1e-6 in the load.
+/// In natural units. Branch points that could only be bracketed are good to 1e-6 in the load.
 constexpr double zero_eigenvalue = 1e-5;
 
 /// Lowest eigenvalues that surely hold those that vanish at a branch point: they come after the negative ones of both
@@ -107,8 +107,9 @@ void BranchRecorder::add_eigenvalues(Solution& solution, const Point& point) {
       // even part.
       const int count = point.type == PointType::branch_point ? zero_modes_wanted(point) : 1;
       stability = stability::analyse(problem, point.x, point.p, count, special(point), solver_);
+      const double zero = zero_eigenvalue * problem.units().force;
       kernel_ = static_cast<int>(std::count_if(stability.eigenvalues.begin(), stability.eigenvalues.end(),
-                                               [](double mu) { return std::abs(mu) < zero_eigenvalue; }));
+                                               [zero](double mu) { return std::abs(mu) < zero; }));
     } catch (
         const std::exception&) {  // at a singular point the spectrum may be out of reach; the index is not
     }
@@ -134,8 +135,8 @@ void BranchRecorder::on_point(const Branch& branch, const Point& point) {
     // A branch that arrives at a known special point carries its label again; the first one keeps it.
     const std::string label = special(point) && labels_.insert(point.label).second ? point.label : "";
     last_ = output::make_row(solution, branch.id + 1, ++in_branch_, label, type_name(point.type), point.ds);
-    if (!writer_.info().extra_parameter.empty()) last_.parameter = point.p(0);
-    at_ = point.p(0);
+    if (!writer_.info().extra_parameter.empty()) last_.parameter = problem.as_given(point.p(0));
+    at_ = problem.as_given(point.p(0));
     judge(last_);
     writer_.add_point(last_, solution);
     ++points_;
@@ -156,19 +157,19 @@ void BranchRecorder::on_special_point(const Branch& branch, const Point& point) 
   const bool capstan = writer_.info().has_cylinder;  // a strut has neither tension nor angle
   entry.T = capstan ? last_.T : std::nan("");
   entry.phi = capstan ? last_.phi : std::nan("");
-  entry.parameter = point.p(0);
-  entry.precision = point.precision;
+  auto& problem = dynamic_cast<RodProblem&>(*point.problem);
+  entry.parameter = problem.as_given(point.p(0));
+  entry.precision = problem.as_given(point.precision);
   if (point.type == PointType::event) {
-    const auto& problem = dynamic_cast<const RodProblem&>(*point.problem);
     const auto of_mesh = equilibrium::event_precision(problem, point.x, point.p, point.event);
-    entry.precision = std::max(entry.precision, of_mesh.value_or(0.0));
+    entry.precision = std::max(entry.precision, problem.as_given(of_mesh.value_or(0.0)));
   }
   entry.multiplicity = std::max(
       1, point.type == PointType::branch_point ? std::max(point.multiplicity, kernel_) : point.multiplicity);
   entry.before = point.before;
   entry.after = point.after;
   if (point.type == PointType::branch_point) {
-    auto& problem = dynamic_cast<RodProblem&>(*point.problem);
+    const double zero = zero_eigenvalue * problem.units().force;
     equilibrium::Mode mode;
     if (point.branch_point && point.branch_point->polished && point.branch_point->null.right.cols() > 0) {
       mode = stability::mode_of(problem, point.x, point.p, point.branch_point->null.right.col(0),
@@ -179,11 +180,9 @@ void BranchRecorder::on_special_point(const Branch& branch, const Point& point) 
       try {
         const auto modes =
             stability::analyse(problem, point.x, point.p, zero_modes_wanted(point), true, solver_).modes;
-        mode = *std::min_element(modes.begin(), modes.end(), [](const auto& a, const auto& b) {
-          const auto rank = [](const equilibrium::Mode& m) {
-            return std::abs(m.eigenvalue) > zero_eigenvalue ? std::abs(m.eigenvalue)
-                   : m.parity == "even"                     ? -1.0
-                                                            : 0.0;
+        mode = *std::min_element(modes.begin(), modes.end(), [zero](const auto& a, const auto& b) {
+          const auto rank = [zero](const equilibrium::Mode& m) {
+            return std::abs(m.eigenvalue) > zero ? std::abs(m.eigenvalue) : m.parity == "even" ? -1.0 : 0.0;
           };
           return rank(a) < rank(b);
         });

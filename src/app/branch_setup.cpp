@@ -7,6 +7,7 @@
 #include "windlass/equilibrium/record.hpp"
 #include "windlass/scene/error.hpp"
 #include "windlass/scene/keys.hpp"
+#include "windlass/scene/units.hpp"
 
 namespace windlass::app {
 
@@ -30,8 +31,10 @@ bool needs_space(const scene::Scene& scene) {
           scene.continuation->to > M_PI);
 }
 
-continuation::Options options_of(const scene::Scene& scene, double from) {
+/// @param scene  in the units it is solved in
+continuation::Options options_of(const scene::Scene& scene) {
   const scene::Continuation& c = *scene.continuation;
+  const double from = scene::get_parameter(scene, c.parameter);
   continuation::Options options;
   options.target = c.to;
   options.direction = c.to < from ? -1 : 1;
@@ -86,7 +89,9 @@ BranchSetup set_up_branch(const BranchRequest& request) {
     if (setup.key == "ends.shortening" && scene.ends.shortening.value_or(0.0) < least_shortening)
       scene.ends.shortening = least_shortening;
   }
-  setup.options = options_of(scene, scene::get_parameter(scene, setup.key));
+  const scene::Units units =
+      setup.stored ? equilibrium::units_of(setup.stored->chain) : scene::natural_units(scene);
+  setup.options = options_of(scene::in_units(scene, units));
   return setup;
 }
 

@@ -61,8 +61,10 @@ bool lifts_off(const output::Run& run, const std::string& label) {
   });
 }
 
-continuation::LocusOptions options_of(const LocusRequest& request, const continuation::Vector& p,
+continuation::LocusOptions options_of(const LocusRequest& request, const continuation::Point& special,
                                       int direction) {
+  const continuation::Vector& p = special.p;
+  const double unit = dynamic_cast<const RodProblem&>(*special.problem).as_given(1.0, 1);
   const bool angle = request.second == "load.angle";
   continuation::LocusOptions options;
   options.options.newton_tolerance = 1e-9;
@@ -71,8 +73,12 @@ continuation::LocusOptions options_of(const LocusRequest& request, const continu
   options.options.lower = 0.05;  // below it rods of usual length have no tails left
   options.options.direction = direction;
   // Angles up to 8π, from where the contact arc vanishes; other parameters within a decade of where they are.
-  const double low = request.from.value_or(angle ? 0.05 : 0.1 * p(1)),
-               high = request.to.value_or(angle ? 8.0 * M_PI : 10.0 * p(1));
+  const double low = request.from ? *request.from / unit
+                     : angle      ? 0.05
+                                  : 0.1 * p(1),
+               high = request.to ? *request.to / unit
+                      : angle    ? 8.0 * M_PI
+                                 : 10.0 * p(1);
   options.second_lower = std::min(low, high);
   options.second_upper = std::max(low, high);
   options.second_scale = angle ? 2.0 : std::max(1e-3, 0.2 * std::abs(p(1)));
@@ -122,7 +128,7 @@ int run_locus(const LocusRequest& request) {
     points = 1;
   }
   for (const int direction : isolated ? std::vector<int>{} : std::vector{1, -1}) {
-    continuation::LocusWalker walker(*special, options_of(request, special->p, direction));
+    continuation::LocusWalker walker(*special, options_of(request, *special, direction));
     int in_branch = 0;
     while (const auto point = walker.step()) {
       auto& problem = dynamic_cast<RodProblem&>(*point->problem);
@@ -133,7 +139,7 @@ int run_locus(const LocusRequest& request) {
           output::make_row(solution, direction > 0 ? 1 : 2, ++in_branch, "",
                            point->type == LocusPoint::Type::event ? "contact" : "regular", point->ds);
       out.newton_iterations = point->newton_iterations;
-      if (!writer_options.extra_parameter.empty()) out.parameter = point->p(1);
+      if (!writer_options.extra_parameter.empty()) out.parameter = problem.as_given(point->p(1), 1);
       writer.add_point(out, solution);
       ++points;
       if (!request.common.quiet && !request.common.json)

@@ -60,6 +60,7 @@ std::optional<Started> attempt(const scene::Scene& scene, bool spatial, bool hal
 
 std::optional<Started> reach(const Started& from, const scene::Scene& scene, double goal, bool half,
                              const std::vector<std::string>& keys, std::string& failure) {
+  const auto given = [&](double p) { return from.problem->as_given(p); };
   continuation::Options options;
   options.target = goal;
   options.direction = goal < from.p(0) ? -1 : 1;
@@ -78,10 +79,10 @@ std::optional<Started> reach(const Started& from, const scene::Scene& scene, dou
       throw NoContact(
           fmt::format("no equilibrium in contact exists at {} = {:g}: followed from {:g}, the rod lifts off "
                       "the cylinder at {:.6g}",
-                      from.problem->keys().front(), goal, from.p(0), reached));
+                      from.problem->keys().front(), given(goal), given(from.p(0)), given(reached)));
     if (walker.end().kind != continuation::End::Kind::target) {
       failure = fmt::format("followed from {} = {:g}, the branch ends: {}", from.problem->keys().front(),
-                            from.p(0), walker.end().reason);
+                            given(from.p(0)), walker.end().reason);
       return std::nullopt;
     }
     last = walker.problem();

@@ -34,7 +34,7 @@ Draft draft_of(const Discovery& found, double half_length) {
 }
 
 /// The nodal rod as a curve. The force follows from the pull, contact by contact; the moment from the turn between nodes.
-chain::Profile profile_of(const Discovery& found, const contact::Loads& loads, double b) {
+chain::Profile profile_of(const Discovery& found, const contact::Loads& loads) {
   const auto count = static_cast<Eigen::Index>(found.s.size());
   chain::Piece rod;
   rod.s = Eigen::Map<const Eigen::VectorXd>(found.s.data(), count);
@@ -55,7 +55,7 @@ chain::Profile profile_of(const Discovery& found, const contact::Loads& loads, d
     n += found.force[i] * rod.r.col(k).head<2>() / (1.0 + found.gap[i]);
     rod.q.col(k) = contact::spatial::surface_frame(rod.heading(k), 0.0, 0.0);
     const Eigen::Index before = std::max<Eigen::Index>(k - 1, 0), after = std::min(k + 1, count - 1);
-    rod.m(2, k) = b * (rod.heading(after) - rod.heading(before)) / (rod.s(after) - rod.s(before));
+    rod.m(2, k) = (rod.heading(after) - rod.heading(before)) / (rod.s(after) - rod.s(before));
   }
   for (Eigen::Index k = 1; k < count; ++k) {
     const double turn = std::atan2(rod.r(0, k), -rod.r(1, k));
@@ -70,18 +70,15 @@ chain::Profile profile_of(const Discovery& found, const contact::Loads& loads, d
 
 std::optional<Started> discovered_start(const scene::Scene& scene, bool spatial, bool half,
                                         const std::vector<std::string>& keys) {
-  const double b = scene.rod.bending_stiffness;
   contact::Loads loads = loads_of(scene);
-  if (scene.rod.infinite()) loads.half_length = 0.5 * loads.angle + 40.0 / std::sqrt(loads.tension / b);
-  contact::Loads unit = loads;  // discovery's rod has unit bending stiffness
-  unit.tension /= b;
+  if (scene.rod.infinite()) loads.half_length = 0.5 * loads.angle + 40.0 / std::sqrt(loads.tension);
   DiscoveryOptions options;
   options.clamped = scene.ends.kind == scene::EndKind::clamped;
-  const Discovery found = discover_contacts(unit, options);
+  const Discovery found = discover_contacts(loads, options);
   if (!found.converged || found.stretches.empty()) return std::nullopt;
   const Draft draft = draft_of(found, loads.half_length);
   std::optional<Started> planar =
-      attempt(scene, false, half || spatial, keys, draft, profile_of(found, loads, b));
+      attempt(scene, false, half || spatial, keys, draft, profile_of(found, loads));
   if (!planar || !spatial) return planar;
   return lift(*planar->problem, planar->x, planar->p, half);
 }

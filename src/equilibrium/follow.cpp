@@ -9,10 +9,11 @@
 
 namespace windlass::equilibrium {
 
-Solution follow(scene::Scene scene, const Solution& stored, const std::string& key, double target) {
+Solution follow(scene::Scene scene, const Solution& stored, const std::string& key, double value) {
   if (stored.has_cylinder) scene.load.tension = stored.T, scene.load.angle = stored.phi;
   std::shared_ptr<RodProblem> problem = reopen(scene, stored.restart, {key});
   Vector x = stored.restart.state, p = problem->parameters();
+  const double target = value / problem->as_given(1.0);
   if (p(0) != target) {
     const double from = p(0);
     continuation::Options options;
@@ -27,7 +28,7 @@ Solution follow(scene::Scene scene, const Solution& stored, const std::string& k
     while (walker.step()) {
     }
     if (walker.end().kind != continuation::End::Kind::target)
-      throw NoEquilibrium("the branch does not reach " + key + " = " + std::to_string(target) + ": " +
+      throw NoEquilibrium("the branch does not reach " + key + " = " + std::to_string(value) + ": " +
                           walker.end().reason);
     problem = std::dynamic_pointer_cast<RodProblem>(walker.problem());
     x = walker.x(), p = walker.p();

@@ -7,6 +7,7 @@
 
 #include "windlass/chain/self_distance.hpp"
 #include "windlass/rod/quaternion.hpp"
+#include "windlass/scene/units.hpp"
 
 namespace windlass::equilibrium {
 
@@ -203,6 +204,7 @@ Solution record(RodProblem& problem, const Vector& x, const Vector& p) {
   measure_invariants(out, problem.rod());
   out.error_estimate = problem.last_error();
   out.restart = restart_of(problem, x);
+  multiply(out, scene.solved_in);
   return out;
 }
 
@@ -211,6 +213,8 @@ std::string chain_of(const RodProblem& problem) {
   chain["spatial"] = problem.spatial();
   chain["half"] = problem.topology().half;
   chain["mid_touch"] = problem.topology().mid_touch;
+  const scene::Units& units = problem.units();
+  chain["units"] = {{"length", units.length}, {"bending_stiffness", units.bending_stiffness}};
   for (const Stretch stretch : problem.topology().stretches)
     chain["stretches"].push_back(static_cast<int>(stretch));
   for (const auto& mesh : problem.meshes())
@@ -219,6 +223,13 @@ std::string chain_of(const RodProblem& problem) {
 }
 
 Restart restart_of(const RodProblem& problem, const Vector& x) { return {chain_of(problem), x}; }
+
+scene::Units units_of(const std::string& chain) {
+  const nlohmann::json all = nlohmann::json::parse(chain);
+  if (!all.contains("units")) return {};  // of a run made before states had units of their own
+  const nlohmann::json& units = all.at("units");
+  return scene::Units::of(units.at("length"), units.at("bending_stiffness"));
+}
 
 std::shared_ptr<RodProblem> rebuild(const scene::Scene& scene, const std::string& text,
                                     const std::vector<std::string>& keys) {
@@ -230,7 +241,8 @@ std::shared_ptr<RodProblem> rebuild(const scene::Scene& scene, const std::string
   std::vector<chain::ArcMesh> meshes;
   for (const auto& mesh : chain.at("meshes"))
     meshes.push_back({mesh.at("nodes").get<std::vector<double>>(), mesh.at("stages").get<int>()});
-  return std::make_shared<RodProblem>(scene, chain.at("spatial").get<bool>(), topology, meshes, keys);
+  return std::make_shared<RodProblem>(scene::in_units(scene, units_of(text)), chain.at("spatial").get<bool>(),
+                                      topology, meshes, keys);
 }
 
 std::shared_ptr<RodProblem> reopen(const scene::Scene& scene, const Restart& restart,

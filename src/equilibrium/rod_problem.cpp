@@ -10,6 +10,7 @@
 #include "windlass/equilibrium/start.hpp"
 #include "windlass/rod/quaternion.hpp"
 #include "windlass/scene/keys.hpp"
+#include "windlass/scene/units.hpp"
 
 namespace windlass::equilibrium {
 
@@ -121,6 +122,8 @@ scene::Scene RodProblem::scene_at(const Vector& p) const {
   for (std::size_t k = 0; k < keys_.size(); ++k) scene::set_parameter(scene, keys_[k], p(k));
   return scene;
 }
+
+double RodProblem::as_given(double p, std::size_t k) const { return scene::as_given(scene_, keys_[k], p); }
 
 Vector RodProblem::residual(const Vector& x, const Vector& p) {
   factored_x_.resize(0);      // the index reads the arcs' gradients too, which now belong to x

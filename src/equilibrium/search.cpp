@@ -10,6 +10,7 @@
 #include "windlass/equilibrium/record.hpp"
 #include "windlass/scene/error.hpp"
 #include "windlass/scene/keys.hpp"
+#include "windlass/scene/units.hpp"
 
 namespace windlass::equilibrium {
 
@@ -82,7 +83,7 @@ void include(Search& search, Started at) {
     if (continuation::same_fingerprint(known.fingerprint, fingerprint, same_state)) return;
   at.problem->error_estimate(at.x, at.p);
   const double potential =
-      equilibrium::potential(record(*at.problem, at.x, at.p), at.problem->scene_at(at.p));
+      equilibrium::potential(record(*at.problem, at.x, at.p), scene::as_given(at.problem->scene_at(at.p)));
   const int index = at.problem->total_index(at.x, at.p);
   FoundState state{std::move(at), index, potential, std::move(fingerprint)};
   const auto before = [](const FoundState& a, const FoundState& b) {
@@ -92,7 +93,8 @@ void include(Search& search, Started at) {
                        std::move(state));
 }
 
-Search search(const scene::Scene& scene, bool spatial, bool half, const std::vector<std::string>& keys) {
+Search search(const scene::Scene& asked, bool spatial, bool half, const std::vector<std::string>& keys) {
+  const scene::Scene scene = scene::natural(asked);
   const std::string key = load_key(scene);
   const double goal = scene::get_parameter(scene, key);
   Search found;
@@ -109,8 +111,10 @@ Search search(const scene::Scene& scene, bool spatial, bool half, const std::vec
         state = unfold(*state.problem, state.x, state.p, state.newton_iterations);
       include(found, std::move(state));
     }
-    found.searched = fmt::format("{} branches, {} points, of the diagram from {} = {:.4g} to {:.4g}",
-                                 harvest.branches(), harvest.points(), key, range.from, range.beyond);
+    found.searched =
+        fmt::format("{} branches, {} points, of the diagram from {} = {:.4g} to {:.4g}", harvest.branches(),
+                    harvest.points(), key, scene::as_given(scene, key, range.from),
+                    scene::as_given(scene, key, range.beyond));
     break;
   }
   if (found.searched.empty()) found.searched = "no load was found at which the flat state is stable";

@@ -14,6 +14,7 @@
 #include "windlass/rod/capstan.hpp"
 #include "windlass/scene/error.hpp"
 #include "windlass/scene/resolved.hpp"
+#include "windlass/scene/units.hpp"
 
 namespace windlass::equilibrium {
 
@@ -46,14 +47,13 @@ std::optional<double> buckling_thrust(const scene::Scene& scene) {
   Started start = cold_start(idle, true, true, {"load.thrust"});
   if (start.problem->total_index(start.x, start.p) > 0) return std::nullopt;
   continuation::Options options;
-  const double euler =
-      4.0 * M_PI * M_PI * scene.rod.bending_stiffness / (scene.rod.length * scene.rod.length);
+  constexpr double euler = 4.0 * M_PI * M_PI;  // B = L = 1
   options.target = options.upper = 2.0 * euler;
   options.parameter_scale = euler;
   options.detect_events = false;
   continuation::Walker walker(start.problem, start.x, start.p, options);
   while (const auto point = walker.step())
-    if (point->type == continuation::PointType::branch_point) return point->p(0);
+    if (point->type == continuation::PointType::branch_point) return start.problem->as_given(point->p(0));
   return std::nullopt;
 }
 
@@ -90,7 +90,7 @@ StateSummary summary_of(const Solution& solution, const scene::Scene& scene, int
           solution.end_force,
           solution.end_moment,
           solution.energy,
-          potential(solution, scene),
+          potential(solution, scene::as_given(scene)),
           index,
           solution.topology};
 }
@@ -238,7 +238,7 @@ Equilibria on_rung(const scene::Scene& scene) {
 }  // namespace
 
 Equilibria equilibria(const scene::Scene& asked) {
-  const scene::Scene scene = determinate(asked);
+  const scene::Scene scene = scene::natural(determinate(asked));
   const auto begin = std::chrono::steady_clock::now();
   Equilibria out = on_rung(scene);
   if (thrust_undetermined(asked)) {

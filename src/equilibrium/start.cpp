@@ -6,6 +6,7 @@
 #include "attempt.hpp"
 #include "windlass/rod/capstan.hpp"
 #include "windlass/scene/error.hpp"
+#include "windlass/scene/units.hpp"
 
 namespace windlass::equilibrium {
 
@@ -15,9 +16,9 @@ using contact::Loads;
 namespace {
 
 /// The draft the closed form suggests: a line contact where it can exist, else one touch at the mid-point.
-Draft closed_form_draft(const Loads& loads, double b) {
-  if (loads.tension > rod::capstan::line_limit(loads.angle) * b) {
-    const double contact = 0.5 * loads.angle - std::acos(1.0 - 0.5 * b / loads.tension);
+Draft closed_form_draft(const Loads& loads) {
+  if (loads.tension > rod::capstan::line_limit(loads.angle)) {
+    const double contact = 0.5 * loads.angle - std::acos(1.0 - 0.5 / loads.tension);
     return {{Stretch::line, Stretch::tail}, false, {0.0, contact, loads.half_length}};
   }
   return {{Stretch::tail}, true, {0.0, loads.half_length}};
@@ -33,9 +34,8 @@ std::optional<Started> by_continuation(const scene::Scene& scene, bool spatial, 
   for (int k = 0; k < 6 && !from; ++k, tight.load.tension *= 1.6) {
     Loads loads = loads_of(tight);
     if (scene.rod.infinite()) loads.half_length = 0.5 * loads.angle + 40.0 / std::sqrt(loads.tension);
-    const double b = scene.rod.bending_stiffness;
-    from = attempt(tight, spatial, true, path, closed_form_draft(loads, b),
-                   chain::capstan_profile(loads.tension, loads.angle, loads.half_length, b));
+    from = attempt(tight, spatial, true, path, closed_form_draft(loads),
+                   chain::capstan_profile(loads.tension, loads.angle, loads.half_length, 1.0));
   }
   if (!from) {
     failure = "no line contact was found at a higher tension either";
@@ -46,23 +46,23 @@ std::optional<Started> by_continuation(const scene::Scene& scene, bool spatial, 
 
 }  // namespace
 
-Started cold_start(const scene::Scene& scene, bool spatial, bool half, const std::vector<std::string>& keys) {
+Started cold_start(const scene::Scene& asked, bool spatial, bool half, const std::vector<std::string>& keys) {
+  const scene::Scene scene = scene::natural(asked);
   if (!scene.has_cylinder)
     return scene.ends.shortening ? buckled_strut(scene, half, keys) : straight_strut(scene, half, keys);
   Loads loads = loads_of(scene);
-  const double b = scene.rod.bending_stiffness;
   if (scene.rod.infinite()) loads.half_length = 0.5 * loads.angle + 40.0 / std::sqrt(loads.tension);
-  const Draft draft = closed_form_draft(loads, b);
+  const Draft draft = closed_form_draft(loads);
   if (draft.s.size() == 3 && draft.s[1] >= loads.half_length)
     throw scene::SceneError("rod.length = " + std::to_string(2.0 * loads.half_length) +
                             ": the rod is shorter than its contact arc, which needs more than " +
                             std::to_string(2.0 * draft.s[1]));
-  const chain::Profile profile = chain::capstan_profile(loads.tension, loads.angle, loads.half_length, b);
+  const chain::Profile profile = chain::capstan_profile(loads.tension, loads.angle, loads.half_length, 1.0);
   if (auto direct = attempt(scene, spatial, half, keys, draft, profile)) return *direct;
   std::string failure;
   if (auto reached = by_continuation(scene, spatial, half, keys, failure)) return *reached;
   if (auto discovered = discovered_start(scene, spatial, half, keys)) return *discovered;
-  throw NoEquilibrium("no equilibrium in contact was found at T = " + std::to_string(scene.load.tension) +
+  throw NoEquilibrium("no equilibrium in contact was found at T = " + std::to_string(asked.load.tension) +
                       ", phi = " + std::to_string(scene.load.angle) + ": " + failure);
 }
 

@@ -32,8 +32,8 @@ std::optional<Started> strut_near(const scene::Scene& scene, const chain::Profil
 /// A slightly shortened strut: a moderate bow, whose amplitude follows from the shortening.
 std::optional<Started> bowed_strut(const scene::Scene& scene) {
   constexpr double moderate = 0.02;
-  const double goal = *scene.ends.shortening, length = scene.rod.length;
-  const double critical = 4.0 * M_PI * M_PI * scene.rod.bending_stiffness / (length * length);
+  const double goal = *scene.ends.shortening;
+  constexpr double critical = 4.0 * M_PI * M_PI;  // B = L = 1
   scene::Scene near = scene;
   near.ends.shortening = moderate;
   const chain::Profile bow = chain::strut_profile(loads_of(near), 2.0 * std::sqrt(moderate));

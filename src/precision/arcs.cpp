@@ -7,6 +7,7 @@
 #include "windlass/equilibrium/record.hpp"
 #include "windlass/equilibrium/start.hpp"
 #include "windlass/rod/capstan.hpp"
+#include "windlass/scene/units.hpp"
 
 namespace windlass::precision {
 
@@ -76,12 +77,12 @@ void unfold(chain::Topology& topology, std::vector<ArcMesh>& meshes, std::vector
 
 Reference make_reference(const scene::Scene& scene) {
   Reference out;
-  out.scene = scene;
+  out.scene = scene::natural(scene);
   out.scene.model.tolerance = 1e-11;
   const equilibrium::Solution found = equilibrium::solve(out.scene);
   constexpr double flat_to = 1e-9;
   out.flat = std::abs(found.tilt) < flat_to && found.z_span < flat_to;
-  const bool closed_form = rod::capstan::line_contact(scene.load.tension, scene.load.angle);
+  const bool closed_form = rod::capstan::line_contact(out.scene.load.tension, scene.load.angle);
   equilibrium::Started start;
   if (out.flat) {
     start = equilibrium::cold_start(out.scene, true, true, keys);
@@ -89,7 +90,7 @@ Reference make_reference(const scene::Scene& scene) {
     scene::Scene half = out.scene;
     half.model.symmetry = scene::Symmetry::half_turn;
     const equilibrium::Solution helix = equilibrium::solve(half);
-    start.problem = equilibrium::reopen(half, helix.restart, keys);
+    start.problem = equilibrium::reopen(scene::as_given(half), helix.restart, keys);
     start.x = helix.restart.state;
     start.p = start.problem->parameters();
   }
@@ -115,8 +116,8 @@ Reference make_reference(const scene::Scene& scene) {
   out.unknowns = static_cast<int>(problem.size());
   if (out.flat && closed_form && out.topology.stretches.size() == 2) {
     const double length = half_length(scene);
-    out.guess = chain::capstan_profile(scene.load.tension, scene.load.angle, length, 1.0);
-    out.s = {0.0, rod::capstan::phi_star(scene.load.tension, scene.load.angle), length};
+    out.guess = chain::capstan_profile(out.scene.load.tension, scene.load.angle, length, 1.0);
+    out.s = {0.0, rod::capstan::phi_star(out.scene.load.tension, scene.load.angle), length};
   }
   return out;
 }

@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "windlass/scene/keys.hpp"
+
 namespace windlass::scene {
 
 namespace {
@@ -178,6 +180,36 @@ Units Units::of(double length, double bending_stiffness) {
   units.force = units.moment / length;
   units.pressure = units.force / length;
   return units;
+}
+
+Units natural_units(const Scene& scene) {
+  return Units::of(scene.has_cylinder ? 1.0 : scene.rod.length, scene.rod.bending_stiffness);
+}
+
+Scene in_units(Scene scene, const Units& units) {
+  const Key* parameter = scene.continuation ? find_key(scene.continuation->parameter) : nullptr;
+  for (const Key& key : keys()) {
+    if (!key.get || !key.set) continue;
+    const bool of_parameter = key.dimension == Dimension::of_parameter;
+    if (of_parameter && !parameter) continue;
+    const double scale = scale_of(units, of_parameter ? parameter->dimension : key.dimension);
+    if (scale == 1.0) continue;
+    if (const std::optional<double> value = key.get(scene)) key.set(scene, *value / scale);
+  }
+  scene.solved_in = Units::of(scene.solved_in.length * units.length,
+                              scene.solved_in.bending_stiffness * units.bending_stiffness);
+  return scene;
+}
+
+Scene natural(const Scene& scene) { return in_units(scene, natural_units(scene)); }
+
+Scene as_given(const Scene& solved) {
+  return in_units(solved, Units::of(1.0 / solved.solved_in.length, 1.0 / solved.solved_in.bending_stiffness));
+}
+
+double as_given(const Scene& solved, std::string_view key, double value) {
+  const Key* known = find_key(key);
+  return known ? value * scale_of(solved.solved_in, known->dimension) : value;
 }
 
 bool Rod::infinite() const { return std::isinf(length); }

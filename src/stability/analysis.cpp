@@ -96,6 +96,7 @@ Stability analyse(RodProblem& given, const Vector& at_x, const Vector& p, int co
   for (const Mode& mode : all) out.eigenvalues.push_back(mode.eigenvalue);
   if (modes) out.modes = std::move(all);
   for (const chain::Contact& c : problem.profile(x, p).contacts) out.degenerate |= c.force < zero_force;
+  equilibrium::multiply(out, given.units());
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "checks.hpp"
+#include "windlass/scene/units.hpp"
 
 namespace windlass::verify {
 
@@ -75,7 +76,12 @@ std::string structure_error(const Solution& solution) {
   return {};
 }
 
-Certificate verify(const Solution& solution, const scene::Scene& scene, const Standard& standard) {
+Certificate verify(const Solution& stored, const scene::Scene& given, const Standard& standard) {
+  // Bounds are for EI = 1 (struts: and length 1).
+  const scene::Scene scene = scene::natural(given);
+  const scene::Units& units = scene.solved_in;
+  Solution solution = stored;
+  equilibrium::multiply(solution, scene::Units::of(1.0 / units.length, 1.0 / units.bending_stiffness));
   CheckList list(standard);
   const std::string error = structure_error(solution);
   list.at_most("structure", error.empty() ? 0.0 : 1.0, 0.0,

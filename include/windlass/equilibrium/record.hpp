@@ -6,13 +6,16 @@
 /// From a discrete state to the value that is written, plotted and checked, and back.
 namespace windlass::equilibrium {
 
-/// The whole rod (both halves) at state x and parameters p. Error estimate and iterations are the problem's last.
+/// The whole rod (both halves) at state x and parameters p, in the units of the scene as its user wrote it. Error estimate and iterations are the problem's last.
 Solution record(RodProblem& problem, const Vector& x, const Vector& p);
 
-/// Topology and meshes as JSON text.
+/// Topology, meshes and units of the state as JSON text.
 std::string chain_of(const RodProblem& problem);
 
-/// The problem so described. @throws std::exception for text that is no chain
+/// Units of a state stored with that text. @throws nlohmann::json::exception for text that is no chain
+scene::Units units_of(const std::string& chain);
+
+/// The problem so described, of a scene as its user wrote it. @throws std::exception for text that is no chain
 std::shared_ptr<RodProblem> rebuild(const scene::Scene& scene, const std::string& chain,
                                     const std::vector<std::string>& keys);
 

@@ -32,7 +32,8 @@ chain::RodKind rod_of(const scene::Scene& scene, bool spatial);
 /// One contact topology on one mesh. Parameters p are the scene keys given at construction, in that order.
 class RodProblem final : public continuation::Problem {
  public:
-  /// @param keys  dotted scene keys that p holds, e.g. {"load.tension", "load.angle"}
+  /// @param scene  in natural units (scene::natural)
+  /// @param keys   dotted scene keys that p holds, e.g. {"load.tension", "load.angle"}
   RodProblem(scene::Scene scene, bool spatial, Topology topology, std::vector<chain::ArcMesh> meshes,
              std::vector<std::string> keys);
 
@@ -84,6 +85,10 @@ class RodProblem final : public continuation::Problem {
   contact::Loads loads(const Vector& p);
   Vector parameters() const;  ///< p of the scene itself
   scene::Scene scene_at(const Vector& p) const;
+  /// Units of p and x: what they are multiplied with to give the user's numbers.
+  const scene::Units& units() const { return scene_.solved_in; }
+  /// A value of the parameter as the user knows it; differences of it likewise.
+  double as_given(double p, std::size_t k = 0) const;
 
   const chain::Chain& chain() const { return *chain_; }
   chain::Chain& chain_to_factor() { return factored_x_.resize(0), *chain_; }

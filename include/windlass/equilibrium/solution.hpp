@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "windlass/scene/scene.hpp"
+
 /// One computed equilibrium as a plain value: what is written to disk, plotted, and checked.
 ///
 /// Everything is dimensionless (PHYSICS: ρ = 1, EI = 1) and in the world frame; the cylinder's axis is e_z.
@@ -119,5 +121,9 @@ struct Solution {
   double seconds_solve = 0.0, seconds_stability = 0.0, seconds_total = 0.0;
   Restart restart;
 };
+
+/// The same state in other units: every quantity multiplied by its unit. `restart` stays: it is the solver's own.
+void multiply(Solution& solution, const scene::Units& units);
+void multiply(Stability& stability, const scene::Units& units);
 
 }  // namespace windlass::equilibrium

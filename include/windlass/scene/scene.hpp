@@ -92,8 +92,10 @@ struct Scene {
   Model model;
   std::optional<Continuation> continuation;
   std::optional<Units> units;  ///< physical scenes only
-  std::string resolved_toml;   ///< the scene as resolved (defaults and --set applied), dimensionless;
-                               ///< reading it again gives an equal Scene
+  /// What a number of this scene is multiplied with to give the user's: 1, but in what natural() returns.
+  Units solved_in;
+  std::string resolved_toml;  ///< the scene as resolved (defaults and --set applied), dimensionless;
+                              ///< reading it again gives an equal Scene
 
   /// Is a half chain, symmetric under the half-turn, admitted?
   bool half_turn() const { return model.symmetry != Symmetry::none && ends.left_kind() == ends.right_kind(); }

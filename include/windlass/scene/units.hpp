@@ -35,4 +35,16 @@ double parse_quantity(std::string_view text, Dimension dimension);
 /// What a dimensionless number of that dimension is multiplied with to give SI units.
 double scale_of(const Units& units, Dimension dimension);
 
+/// The units every solver works in: EI = 1 and, for rods without a cylinder, a length of 1. So no threshold there depends
+/// on the units of the scene.
+Units natural_units(const Scene& scene);
+
+/// The scene with every number divided by its unit; `solved_in` says by what.
+Scene in_units(Scene scene, const Units& units);
+Scene natural(const Scene& scene);
+
+/// The scene as its user wrote it, and a value of one of its keys.
+Scene as_given(const Scene& solved);
+double as_given(const Scene& solved, std::string_view key, double value);
+
 }  // namespace windlass::scene

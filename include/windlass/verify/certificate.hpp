@@ -46,7 +46,7 @@ struct Standard {
 /// outward normal), the end conditions and pulls, the invariants of PHYSICS (H, axial torque, n_z, twisting moment),
 /// unilateral contact (gaps and forces >= 0, tangency), and that length, loads and R_tot are those of
 /// the scene and of the contact forces.
-/// Forces are divided by max(1, T), moments by max(1, √T), for struts with T the size of the end force.
+/// In units of EI = 1 (struts: and length 1), forces are divided by max(1, T), moments by max(1, √T), for struts with T the size of the end force.
 ///
 /// @throws nothing about the solution: a malformed one fails the check "structure", one that CVODE cannot follow the
 ///         check "integration"
