@@ -9,7 +9,7 @@ namespace continuation {
 
 namespace {
 
-constexpr int format = 2;  // of the data; others are refused
+constexpr int format = 3;  // of the data; others are refused
 
 }  // namespace
 
@@ -19,7 +19,9 @@ concept Is = std::same_as<std::remove_const_t<T>, U>;
 
 void fields(auto& a, Is<Tangent> auto& tangent) { a("x", tangent.x), a("p", tangent.p); }
 
-void fields(auto& a, Is<EventFunction> auto& event) { a("name", event.name), a("value", event.value); }
+void fields(auto& a, Is<EventFunction> auto& event) {
+  a("name", event.name), a("value", event.value), a("imminent", event.imminent), a("passes", event.passes);
+}
 
 void fields(auto& a, Is<End> auto& end) { a("kind", end.kind), a("reason", end.reason); }
 

@@ -111,7 +111,7 @@ bool LocusWalker::advance_once(std::string& failure) {
     const EventFunction* first = nullptr;
     for (const EventFunction& event : events_) {
       // Zero together with the one followed (mirror images): no event of its own.
-      if (event.name == event_ || event.name == crossed || event.value <= 1e-7) continue;
+      if (event.name == event_ || event.name == crossed || event.passes || event.value <= 1e-7) continue;
       const EventFunction* after = find(now, event.name);
       if (after && after->value < -options_.options.event_zero && (!first || after->value < first->value))
         first = &event;

@@ -32,7 +32,7 @@ bool Walker::event_at_edge() {
     const EventFunction& event = state_.events[i];
     const auto before = std::find_if(state_.previous_events.begin(), state_.previous_events.end(),
                                      [&](const EventFunction& other) { return other.name == event.name; });
-    if (before == state_.previous_events.end() || event.value < 0.0) continue;
+    if (before == state_.previous_events.end() || event.passes || event.value < 0.0) continue;
     const double rate = (event.value - before->value) / state_.last_ds;
     if (event.imminent ? rate >= 0.0 : event.value + rate * reach >= 0.0) continue;
     Segment segment(state_.problem, options_, state_.x, state_.p, state_.tangent);

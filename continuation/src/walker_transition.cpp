@@ -51,6 +51,22 @@ void Walker::adapt() {
   }
 }
 
+// The zero of a function that may change its sign: a point of the branch, which goes on.
+void Walker::note(Point event, const EventFunction& function, const Transition& transition) {
+  const auto known = state_.signs.find(function.name);
+  const int sign = known == state_.signs.end() ? 1 : known->second;
+  state_.signs[function.name] = -sign;
+  event.before = sign > 0 ? transition.before : transition.after;
+  event.after = sign > 0 ? transition.after : transition.before;
+  event.index_after = state_.index;
+  event.next_problem = state_.problem->clone();
+  event.next_x = state_.x;
+  event.next_p = state_.p;
+  queue_.push_back(std::move(event));
+  // A short first step separates the zero just passed from the next event.
+  step_length_.reset(0.1 * step_length_.usual());
+}
+
 void Walker::pass(Point event, std::size_t which, const std::string& name, int direction) {
   const auto finish = [&](End::Kind kind, const std::string& reason) {
     queue_.push_back(std::move(event));
@@ -68,6 +84,10 @@ void Walker::pass(Point event, std::size_t which, const std::string& name, int d
     failure = std::string(": ") + error.what();
   }
   if (!transition) return finish(End::Kind::lost, "event " + name + ": no continuation is known" + failure);
+  const auto function = std::find_if(state_.events.begin(), state_.events.end(),
+                                     [&](const EventFunction& other) { return other.name == name; });
+  if (function != state_.events.end() && function->passes)
+    return note(std::move(event), *function, *transition);
   event.before = transition->before;
   event.after = transition->after;
   if (!transition->problem) return finish(End::Kind::event, "event " + name + " ends the branch");
@@ -157,10 +177,15 @@ bool Walker::enter(const Transition& transition, int direction, const std::strin
           continue;
         }
         segment.add_events(*sample);
-        // Signs are read off the first point beyond: here the function that changed is zero up to roundoff.
+        // Signs are read off the first point beyond: here the function that changed is zero up to roundoff. Those that may
+        // have either are known from here on.
         state_.signs.clear();
         settle(segment, *sample);
-        state_.signs.clear();
+        std::erase_if(state_.signs, [&](const auto& sign) {
+          return std::none_of(state_.events.begin(), state_.events.end(), [&](const EventFunction& event) {
+            return event.passes && event.name == sign.first;
+          });
+        });
         state_.mesh_changed = true;
         state_.previous_tangent = state_.tangent;
         // A short first step separates the zero just passed from the next event.
@@ -182,7 +207,7 @@ bool Walker::valid_direction(const std::shared_ptr<Problem>& problem, const Vect
   // steps.
   const auto simultaneous =
       std::count_if(state_.events.begin(), state_.events.end(), [&](const EventFunction& event) {
-        return event.name != passed && std::abs(event.value) <= 1e4 * options_.event_zero;
+        return event.name != passed && !event.passes && std::abs(event.value) <= 1e4 * options_.event_zero;
       });
   // A short step may still be within roundoff of the event, a long one beyond the next.
   for (const double part : {0.1, 0.01, 1e-3, 1e-4, 1e-5}) {
@@ -192,7 +217,7 @@ bool Walker::valid_direction(const std::shared_ptr<Problem>& problem, const Vect
     segment.add_events(*sample);
     const auto negative =
         std::count_if(sample->events.begin(), sample->events.end(), [&](const EventFunction& event) {
-          if (event.value >= -options_.event_zero) return false;
+          if (event.passes || event.value >= -options_.event_zero) return false;
           const auto before = std::find_if(state_.events.begin(), state_.events.end(),
                                            [&](const EventFunction& old) { return old.name == event.name; });
           // Negative already before the event, so not the event's doing.

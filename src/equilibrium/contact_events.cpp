@@ -62,14 +62,61 @@ ContactEvent graze(const Piece& piece, int link, bool starts_at_mid) {
   return event;
 }
 
-ContactEvent least_pressure(const Piece& piece, int link) {
-  Eigen::Index k = 0;
-  piece.p.minCoeff(&k);
-  const Least least = least_near(piece, piece.p, k);
-  return {Kind::pressure, link, least.value, least.s};
+double length_of(const Piece& piece) { return piece.s(piece.s.size() - 1) - piece.s(0); }
+
+/// First and second derivative of the pressure at s.
+std::pair<double, double> slopes(const Piece& line, double s) {
+  Eigen::Index first = 0;
+  const Eigen::Index last = line.s.size() - 1;
+  while (first + line.stride < last && s > line.s(first + line.stride)) first += line.stride;
+  const Eigen::VectorXd nodes = line.s.segment(first, line.stride + 1),
+                        p = line.p.segment(first, line.stride + 1);
+  const double length = nodes(line.stride) - nodes(0);
+  const Eigen::VectorXd scaled = (nodes.array() - nodes(0)) / length;
+  Eigen::VectorXd slope(scaled.size());
+  for (Eigen::Index k = 0; k < scaled.size(); ++k) slope(k) = bvp::lagrange_slopes(scaled, scaled(k)).dot(p);
+  const double x = (s - nodes(0)) / length;
+  return {bvp::lagrange_slopes(scaled, x).dot(p) / length,
+          bvp::lagrange_slopes(scaled, x).dot(slope) / (length * length)};
 }
 
-double length_of(const Piece& piece) { return piece.s(piece.s.size() - 1) - piece.s(0); }
+/// How far p + b x + a x²/2 stays negative from x = 0 on, at most `most`.
+double reach(double p, double b, double a, double most) {
+  const double root = b * b - 2.0 * a * p;
+  if (p >= 0.0) return 0.0;
+  if (root < 0.0 || b + std::sqrt(root) <= 0.0) return most;
+  return std::min(most, -2.0 * p / (b + std::sqrt(root)));
+}
+
+/// Where a line contact pulls, about its least pressure; no length where it does not.
+ContactEvent least_pressure(const Piece& line, int link, bool begins_at_mid) {
+  Eigen::Index k = 0;
+  line.p.minCoeff(&k);
+  const Least least = least_near(line, line.p, k);
+  ContactEvent event{Kind::pressure, link, least.value, least.s, least.s, least.s};
+  const double begin = line.s(0), end = line.s(line.s.size() - 1);
+  // Pressed evenly it lifts all at once, and a line that shrinks to nothing is not cut.
+  const bool even = line.p.maxCoeff() - line.p.minCoeff() < 1e-6;
+  event.passes = !even && end - begin > 10.0 * least_length;
+  const auto [b, a] = slopes(line, least.s);
+  event.from = least.s - reach(least.value, -b, a, least.s - begin);
+  event.to = least.s + reach(least.value, b, a, end - least.s);
+  if (begins_at_mid && event.from <= begin) event.from = begin - (event.to - begin);
+  return event;
+}
+
+/// Positive as long as the line carries the gap that has opened in it.
+ContactEvent suction(const Piece& line, const ContactEvent& pressure) {
+  ContactEvent event = pressure;
+  event.kind = Kind::suction;
+  event.passes = false;
+  event.redrawn = true;
+  const double end = line.s(line.s.size() - 1);
+  const bool mirrored = event.from < line.s(0);  // about the mid-point of a half chain
+  const bool beside_touch = event.to >= end || (!mirrored && event.from <= line.s(0));
+  event.value = 1.0 - (event.to - event.from) / (beside_touch ? carried_beside_touch : carried_inside);
+  return event;
+}
 
 /// Two touches at the ends of a short gap: with it their curvature, its height and all that tells them apart vanishes.
 bool hardly_apart(const Profile& profile, int link) {
@@ -82,8 +129,25 @@ bool hardly_apart(const Profile& profile, int link) {
   return touches == 2;
 }
 
-ContactEvent length_event(const Profile& profile, int i) {
-  ContactEvent event{Kind::length, i, length_of(profile.pieces[i]) - least_length, profile.pieces[i].s(0)};
+/// Length below which the line beside a gap carries it; some shorter than it was when it became an arc.
+std::optional<double> carried_length(const Profile& profile, int link, bool begins_at_mid) {
+  constexpr double shorter = 0.75;
+  if (profile.pieces[link].stretch != Stretch::gap) return std::nullopt;
+  int edges = 0, touches = 0;
+  for (const Contact& c : profile.contacts)
+    if (c.joint == link || c.joint == link + 1) ++(c.edge ? edges : touches);
+  const double inside = shorter * std::sqrt(5.0) * carried_inside;
+  if (begins_at_mid && edges == 1 && touches == 0) return 0.5 * inside;
+  if (edges == 2) return inside;
+  if (edges == 1 && touches == 1) return shorter * (5.0 / 3.0) * carried_beside_touch;
+  return std::nullopt;
+}
+
+ContactEvent length_event(const Profile& profile, int i, bool begins_at_mid) {
+  const auto carried = carried_length(profile, i, begins_at_mid);
+  ContactEvent event{Kind::length, i, length_of(profile.pieces[i]) - carried.value_or(least_length),
+                     profile.pieces[i].s(0)};
+  event.redrawn = carried.has_value();
   event.imminent = hardly_apart(profile, i);
   return event;
 }
@@ -91,7 +155,7 @@ ContactEvent length_event(const Profile& profile, int i) {
 }  // namespace
 
 std::string ContactEvent::name() const {
-  static const char* const words[] = {"pressure", "length", "force", "curvature", "graze"};
+  static const char* const words[] = {"pressure", "suction", "length", "force", "curvature", "graze"};
   return std::string(words[static_cast<int>(kind)]) + " " + std::to_string(place);
 }
 
@@ -101,8 +165,12 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
   for (int i = 0; i < count; ++i) {
     const Piece& piece = profile.pieces[i];
     const bool at_mid = topology.half && i == 0;
-    if (piece.stretch == Stretch::line) events.push_back(least_pressure(piece, i));
-    if (piece.stretch != Stretch::tail) events.push_back(length_event(profile, i));
+    if (piece.stretch == Stretch::line) {
+      events.push_back(least_pressure(piece, i, at_mid && !topology.mid_touch));
+      if (events.back().passes) events.push_back(suction(piece, ContactEvent(events.back())));
+    }
+    if (piece.stretch != Stretch::tail)
+      events.push_back(length_event(profile, i, at_mid && !topology.mid_touch));
     if (piece.stretch != Stretch::line) events.push_back(graze(piece, i, at_mid && !topology.mid_touch));
   }
   for (const Contact& c : profile.contacts) {

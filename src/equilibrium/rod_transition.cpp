@@ -22,12 +22,13 @@ struct Entry {
 /// Can this state be the continuation? At the event itself forces vanish, to within rounding.
 bool admissible(const std::vector<ContactEvent>& events) {
   return std::all_of(events.begin(), events.end(), [](const ContactEvent& event) {
-    return event.value >= (event.kind == Kind::length ? 1e-6 : -1e-6);
+    return event.passes || event.value >= (event.kind == Kind::length ? 1e-6 : -1e-6);
   });
 }
 
 /// The successor's problem, with the old shape as guess.
-Entry draft(const RodProblem& from, const Successor& next, const chain::Profile& shape, const Vector& p) {
+Entry draft(const RodProblem& from, const Successor& next, const chain::Profile& shape, const Vector& p,
+            bool redrawn) {
   constexpr int elements = 4;
   std::vector<chain::ArcMesh> meshes;
   for (int source : next.source)
@@ -39,7 +40,12 @@ Entry draft(const RodProblem& from, const Successor& next, const chain::Profile&
     const double length = std::min(std::abs(next.s[i + 1] - next.s[i]), 40.0);
     meshes[i].nodes = chain::uniform_mesh(std::max(elements, static_cast<int>(std::ceil(length))));
   }
-  for (int link : next.opened) meshes[link].nodes = chain::uniform_mesh(elements);
+  // In a short arc every element more is a place more where rounding of the frames bends the rod.
+  for (int link : next.opened) {
+    constexpr double short_arc = 0.1;
+    meshes[link].nodes =
+        chain::uniform_mesh(next.s[link + 1] - next.s[link] < short_arc && redrawn ? 1 : elements);
+  }
   const scene::Scene scene = from.scene_at(p);
   choose_tails(meshes, next.topology, from.rod(), loads_of(scene), next.s);
   auto problem = std::make_shared<RodProblem>(scene, from.spatial(), next.topology, meshes, from.keys());
@@ -126,8 +132,9 @@ void adjust_length(Entry& entry, int link) {
 
 /// Solves for a successor with opened arcs. Where the pressure is lost in several places almost at once, the state with
 /// one gap open has suction in another: that opens too, and so on.
-/// @param opened  links of `entry`, the one that keeps its length first
-std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, int depth) {
+/// @param opened   links of `entry`, the one that keeps its length first
+/// @param as_long  as it is; else brought to the length that arcs are entered with
+std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, int depth, bool as_long) {
   settle_shape(*entry.problem, entry.x, entry.p, opened);
   if (!solve_at_length(*entry.problem, entry.x, entry.p, opened.front(), length_of(entry, opened.front())))
     return std::nullopt;
@@ -135,7 +142,7 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, i
   const Topology& topology = entry.problem->topology();
   const std::vector<ContactEvent> events = contact_events(shape, topology);
   if (admissible(events)) {
-    adjust_length(entry, opened.front());
+    if (!as_long) adjust_length(entry, opened.front());
     return entry;
   }
   const auto worst = std::min_element(events.begin(), events.end(),
@@ -149,7 +156,9 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, i
       all.push_back(
           static_cast<int>(std::find(next.source.begin(), next.source.end(), link) - next.source.begin()));
     all.insert(all.end(), next.opened.begin(), next.opened.end());
-    if (auto found = open_in_turn(draft(*entry.problem, next, shape, entry.p), all, depth - 1)) return found;
+    if (auto found =
+            open_in_turn(draft(*entry.problem, next, shape, entry.p, as_long), all, depth - 1, as_long))
+      return found;
   }
   return std::nullopt;
 }
@@ -160,8 +169,8 @@ std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const 
   constexpr int most_together = 5;
   try {
     Entry exact = guess;
-    const bool vanishes =
-        event.kind == Kind::length || (event.kind == Kind::curvature && next.opened.empty());
+    const bool vanishes = (event.kind == Kind::length && !event.redrawn) ||
+                          (event.kind == Kind::curvature && next.opened.empty());
     const auto found = vanishes ? locate_from_beyond(exact, event.s + 0.5 * least_length) : std::nullopt;
     if (found && holds(exact)) {
       precision = *found;
@@ -170,7 +179,7 @@ std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const 
   } catch (const std::exception&) {  // a length or tension left its domain
   }
   try {
-    if (!next.opened.empty()) return open_in_turn(guess, next.opened, most_together);
+    if (!next.opened.empty()) return open_in_turn(guess, next.opened, most_together, event.redrawn);
   } catch (const std::exception&) {
     return std::nullopt;
   }
@@ -184,7 +193,7 @@ std::vector<continuation::EventFunction> RodProblem::events(const Vector& x, con
   std::vector<continuation::EventFunction> out;
   if (!scene_.has_cylinder) return out;
   for (const ContactEvent& event : contact_events(profile(x, p), topology_))
-    out.push_back({event.name(), event.value, event.imminent});
+    out.push_back({event.name(), event.value, event.imminent, event.passes});
   return out;
 }
 
@@ -197,11 +206,16 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
     continuation::Transition transition;
     transition.before = topology_.text();
     transition.after = next.topology.text();
+    transition.silent = event.redrawn;
+    if (event.passes) {
+      transition.problem = clone();
+      return transition;
+    }
     if (next.nothing_left) {
       transition.after = "no contact";
       return transition;  // null problem: the branch ends here
     }
-    const Entry entry = draft(*this, next, shape, p);
+    const Entry entry = draft(*this, next, shape, p, event.redrawn);
     transition.state = entry.x;
     transition.problem = entry.problem;
     if (!first) first = transition;
@@ -210,7 +224,7 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
     transition.problem = found->problem;
     transition.after = found->problem->topology().text();
     transition.state = found->x;
-    if (found->p != p || transition.precision >= 0.0) transition.p = found->p;
+    if (!event.redrawn && (found->p != p || transition.precision >= 0.0)) transition.p = found->p;
     return transition;
   }
   return first;

@@ -84,6 +84,9 @@ void include(Search& search, Started at) {
   at.problem->error_estimate(at.x, at.p);
   const double potential =
       equilibrium::potential(record(*at.problem, at.x, at.p), scene::as_given(at.problem->scene_at(at.p)));
+  // Where a motion costs nothing (a closed rod's along itself) every state of the family has this potential.
+  for (const FoundState& known : search.states)
+    if (std::abs(potential - known.potential) <= same_potential * std::abs(potential)) return;
   const int index = at.problem->total_index(at.x, at.p);
   FoundState state{std::move(at), index, potential, std::move(fingerprint)};
   const auto before = [](const FoundState& a, const FoundState& b) {
@@ -92,6 +95,20 @@ void include(Search& search, Started at) {
   search.states.insert(std::upper_bound(search.states.begin(), search.states.end(), state, before),
                        std::move(state));
 }
+
+namespace {
+
+/// On the full chain, if that is asked for; nullopt where a state of a half chain is singular there: one of a family.
+std::optional<Started> on_asked_chain(Started state, bool half) {
+  if (half || !state.problem->topology().half) return state;
+  try {
+    return unfold(*state.problem, state.x, state.p, state.newton_iterations);
+  } catch (const NoEquilibrium&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
 
 Search search(const scene::Scene& asked, bool spatial, bool half, const std::vector<std::string>& keys) {
   const scene::Scene scene = scene::natural(asked);
@@ -106,11 +123,8 @@ Search search(const scene::Scene& asked, bool spatial, bool half, const std::vec
     limits.max_branches = 24;
     Harvest harvest(goal, options);
     continuation::trace_diagram(start->problem, start->x, start->p, options, limits, harvest);
-    for (Started& state : harvest.states()) {
-      if (!half && state.problem->topology().half)
-        state = unfold(*state.problem, state.x, state.p, state.newton_iterations);
-      include(found, std::move(state));
-    }
+    for (const Started& state : harvest.states())
+      if (auto asked = on_asked_chain(state, half)) include(found, std::move(*asked));
     found.searched =
         fmt::format("{} branches, {} points, of the diagram from {} = {:.4g} to {:.4g}", harvest.branches(),
                     harvest.points(), key, scene::as_given(scene, key, range.from),

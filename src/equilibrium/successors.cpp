@@ -20,21 +20,6 @@ Stretch joined(Stretch a, Stretch b) {
   return a == Stretch::tail || b == Stretch::tail ? Stretch::tail : Stretch::gap;
 }
 
-/// Stretch of negative pressure round s; no length at the event itself.
-std::pair<double, double> suction(const Piece& line, double s) {
-  const auto edge = [&](Eigen::Index k, Eigen::Index next) {
-    return line.s(k) + (line.s(next) - line.s(k)) * line.p(k) / (line.p(k) - line.p(next));
-  };
-  Eigen::Index k = 0;
-  (line.s.array() - s).abs().minCoeff(&k);
-  if (line.p(k) >= -1e-9) return {s, s};
-  Eigen::Index first = k, last = k;
-  const Eigen::Index end = line.s.size() - 1;
-  while (first > 0 && line.p(first - 1) < 0.0) --first;
-  while (last < end && line.p(last + 1) < 0.0) ++last;
-  return {first > 0 ? edge(first, first - 1) : line.s(0), last < end ? edge(last, last + 1) : line.s(end)};
-}
-
 /// Lengths to try for a gap that opens where the pressure is negative over `width`. A beam held off by the pressure
 /// p₀ + a x² needs √5 times that width for g = g' = g'' = 0 at its ends, one held at a touch 5/3 of it; at the event
 /// itself the width is nothing, and the load gives way to any length: by its square inside, in proportion at an edge.
@@ -52,10 +37,9 @@ std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& st
   Strip open = strip;  // the whole line lifts at once
   open.parts[i].kind = Stretch::gap;
   if (line.p.maxCoeff() - line.p.minCoeff() < 1e-6) return {open.successor()};
-  const auto [low, high] = suction(line, event.s);
-  const double width = high - low, near = 0.02 * length;
-  const bool at_start = low<begin + near, at_end = high> end - near;
-  const bool at_mid = at_start && strip.starts_at_mid(i);
+  const double low = event.from, high = event.to, width = high - low;
+  const bool at_start = low <= begin, at_end = high >= end;
+  const bool at_mid = at_start && strip.starts_at_mid(i) && !strip.mid_touch;
   const auto cut = [&](Strip part, int link, double from, double to) {  // a gap [from, to] inside a link
     const bool before = from > part.s[link], after = to < part.s[link + 1];
     if (after) part.split(link, to, Stretch::gap, Stretch::line);
@@ -64,7 +48,7 @@ std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& st
     return part;
   };
   if (at_mid) {
-    for (const double size : gap_lengths(2.0 * width, std::sqrt(5.0), 0.3, 1.8 * length))
+    for (const double size : gap_lengths(width, std::sqrt(5.0), 0.3, 1.8 * length))
       out.push_back(cut(strip, i, begin, begin + 0.5 * size).successor());
   } else if (at_start ||
              at_end) {  // the edge's point force stays: a touch, with a gap between it and the line
@@ -182,6 +166,7 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
   const Strip strip(topology, s);
   switch (event.kind) {
     case Kind::pressure:
+    case Kind::suction:
       // With a line that shrinks to nothing its pressure (phi = pi) or its edges' forces may change sign.
       if (vanishes(strip, event.place)) return after_length(event.place, strip);
       return after_pressure(event, strip, profile.pieces[event.place]);

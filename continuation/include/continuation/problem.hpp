@@ -22,7 +22,7 @@ struct Transition {
   Vector p;  ///< where `state` solves, if beside the event (where a new part has no size yet)
   double precision =
       -1.0;  ///< of p, if `state` at p is the event itself, located from beyond; negative: it is not
-  bool silent = false;  ///< only the description changes (an origin moves on): no point of the branch
+  bool silent = false;  ///< the same state, described otherwise: no point of the branch
 };
 
 /// A solution of a problem posed on symmetric states, in the problem without that restriction.
@@ -31,12 +31,14 @@ struct Unrestricted {
   Vector x;
 };
 
-/// A scalar that must keep its sign along a regular branch.
+/// A scalar that must keep its sign along a regular branch, or whose zeros are noted.
 struct EventFunction {
   std::string name;  ///< e.g. "pressure", "force touch 2"; unique within a problem
   double value = 0.0;
   bool imminent =
       false;  ///< near this zero F is nearly singular: where steps fail, it is taken to be reached
+  /// The description of the state changes here, F does not: the branch goes on, and may come back through the zero.
+  bool passes = false;
 };
 
 /// A smooth family of nonlinear equations F(x, p) = 0, with as many equations as degrees of freedom.
@@ -110,6 +112,7 @@ class Problem {
   virtual std::vector<EventFunction> events(const Vector& x, const Vector& p);
 
   /// Called at a located zero of events()[which]; nullopt: no continuation is known (the branch is lost).
+  /// Of an event that `passes` only the two descriptions are asked, that of its positive side first.
   virtual std::optional<Transition> transition(std::size_t which, const Vector& x, const Vector& p);
 
   /// May change the discretisation after an accepted point; returns the new state when it did. size() may

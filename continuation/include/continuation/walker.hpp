@@ -72,6 +72,7 @@ class Walker {
   void adapt();
 
   // walker_transition.cpp
+  void note(Point event, const EventFunction& function, const Transition& transition);
   void pass(Point event, std::size_t which, const std::string& name, int direction);
   bool enter(const Transition& transition, int direction, const std::string& passed, std::string& failure);
   bool valid_direction(const std::shared_ptr<Problem>& problem, const Vector& x, const Vector& p,

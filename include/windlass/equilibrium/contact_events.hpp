@@ -11,24 +11,40 @@
 ///
 /// | event | positive quantity | what follows |
 /// |---|---|---|
-/// | pressure | least pressure on a line contact | the line opens: a gap inside it, or all of it |
-/// | length | length of a line contact, or of a gap between contacts, less `least_length` | a touch in its place; where
-/// only one side of a full chain's mid-point runs out, the contact there moves over it |
+/// | pressure | least pressure on a line contact | a gap opens, or closes; a line that is pressed evenly lifts |
+/// | suction | 1 less the width on which a line contact pulls, over what a line carries for a gap | that gap, as an arc |
+/// | length | length of a line contact, or of a gap between touches, less `least_length`; of a gap beside a line less what the
+/// line carries | a touch in its place; the line |
 /// | force | point force at a touch or an edge | the touch is lost (an edge: no successor is known) |
 /// | curvature | g'' at a touch | the touch flattens into a line, or comes apart into two |
 /// | graze | least gap inside a free arc | a new touch |
+///
+/// **A gap that has just opened is carried by its line.** Where the pressure p of a line contact is negative, the rod lifts: a
+/// beam under p₀ + a s²/2 over a gap of half-length h, h² = −10 p₀/a, to the height a h⁶/720B, with forces a h³/15 at the gap's
+/// edges; beside a touch, under p_e + b s, over a length ℓ = −(5/3) p_e/b, by an angle to the touch that costs the moment
+/// bℓ³/60. Long before such a gap is long enough for an arc of its own (in which rounding of the frames, over the edges' force,
+/// would move its edges) the line with the suction in it is the same state to all digits. So `pressure` only says where
+/// contacts open, and the gap becomes an arc where its suction is as wide as `carried_inside` or `carried_beside_touch`.
 namespace windlass::equilibrium {
 
 /// Forces of an arc of length ℓ carry rounding errors like 1/ℓ: it gives way to the topology without it this early, and
 /// the event itself is located there.
 inline constexpr double least_length = 1e-3;
+
+/// Widths of suction a line carries for a gap, √5 and 5/3 times as long [ρ]. The height of the gap is then below 1e-11; energy
+/// and R_tot, which see the square of what the line does wrong, change by less than 1e-9, the moment at a touch by 1e-7.
+inline constexpr double carried_inside = 0.036, carried_beside_touch = 0.018;
+
 struct ContactEvent {
-  enum class Kind { pressure, length, force, curvature, graze };
+  enum class Kind { pressure, suction, length, force, curvature, graze };
   Kind kind = Kind::force;
-  int place = 0;  ///< link (pressure, length, graze) or joint (force, curvature)
+  int place = 0;  ///< link (pressure, suction, length, graze) or joint (force, curvature)
   double value = 0.0;
-  double s = 0.0;         ///< where along the rod
-  bool imminent = false;  ///< length of a gap so short that its two touches can hardly be told apart
+  double s = 0.0;               ///< where along the rod
+  double from = 0.0, to = 0.0;  ///< pressure, suction: the stretch of negative pressure
+  bool imminent = false;        ///< length of a gap so short that its two touches can hardly be told apart
+  bool passes = false;          ///< the same equations hold on both sides
+  bool redrawn = false;         ///< the same state follows, a gap as an arc or carried by its line
   std::string name() const;
 };
 

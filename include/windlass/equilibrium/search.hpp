@@ -10,6 +10,8 @@ namespace windlass::equilibrium {
 
 /// Two states whose fingerprints agree to this are one: the error of a mesh lies far below, two branches far above.
 inline constexpr double same_state = 1e-6;
+/// Of potentials, relative: states of one family differ by rounding, others by more.
+inline constexpr double same_potential = 1e-11;
 
 /// One of them.
 struct FoundState {
