@@ -56,6 +56,15 @@ void Walker::note(Point event, const EventFunction& function, const Transition& 
   const auto known = state_.signs.find(function.name);
   const int sign = known == state_.signs.end() ? 1 : known->second;
   state_.signs[function.name] = -sign;
+  // Mirror images vanish together: one point.
+  for (const EventFunction& other : state_.events) {
+    if (!other.passes || other.name == function.name) continue;
+    constexpr double together = 1e-6;
+    const auto before = std::find_if(state_.previous_events.begin(), state_.previous_events.end(),
+                                     [&](const EventFunction& old) { return old.name == other.name; });
+    if (before != state_.previous_events.end() && std::abs(other.value) <= together * std::abs(before->value))
+      state_.signs[other.name] = before->value > 0.0 ? -1 : 1;
+  }
   event.before = sign > 0 ? transition.before : transition.after;
   event.after = sign > 0 ? transition.after : transition.before;
   event.index_after = state_.index;
@@ -166,7 +175,8 @@ bool Walker::enter(const Transition& transition, int direction, const std::strin
     try {
       for (const int sign : {direction, -direction}) {
         Tangent tangent = first_tangent(*problem, it.x, it.p, options_, sign);
-        if (!valid_direction(problem, it.x, it.p, tangent, passed)) {
+        if (transition.silent ? !goes_on(*problem, it.x, it.p, tangent)
+                              : !valid_direction(problem, it.x, it.p, tangent, passed)) {
           failure = "the new problem is not valid in either direction";
           continue;
         }
@@ -199,6 +209,18 @@ bool Walker::enter(const Transition& transition, int direction, const std::strin
     }
   }
   return false;
+}
+
+// Does a tangent of the same state, described otherwise, point forward? Fingerprints compare the two.
+bool Walker::goes_on(Problem& problem, const Vector& x, const Vector& p, const Tangent& tangent) {
+  const double small = 1e-2 * step_length_.current();
+  const auto change = [&](Problem& of, const Vector& at, const Vector& where, const Tangent& along) {
+    Vector beyond = where;
+    parameter(beyond) += small * along.p;
+    return Vector(of.fingerprint(of.retract(at, small * along.x), beyond) - of.fingerprint(at, where));
+  };
+  return change(*state_.problem, state_.x, state_.p, state_.tangent).dot(change(problem, x, p, tangent)) >=
+         0.0;
 }
 
 bool Walker::valid_direction(const std::shared_ptr<Problem>& problem, const Vector& x, const Vector& p,

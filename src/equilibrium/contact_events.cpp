@@ -114,7 +114,9 @@ ContactEvent suction(const Piece& line, const ContactEvent& pressure) {
   const double end = line.s(line.s.size() - 1);
   const bool mirrored = event.from < line.s(0);  // about the mid-point of a half chain
   const bool beside_touch = event.to >= end || (!mirrored && event.from <= line.s(0));
-  event.value = 1.0 - (event.to - event.from) / (beside_touch ? carried_beside_touch : carried_inside);
+  event.value = !pressure.passes
+                    ? 1.0
+                    : 1.0 - (event.to - event.from) / (beside_touch ? carried_beside_touch : carried_inside);
   return event;
 }
 
@@ -167,7 +169,7 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
     const bool at_mid = topology.half && i == 0;
     if (piece.stretch == Stretch::line) {
       events.push_back(least_pressure(piece, i, at_mid && !topology.mid_touch));
-      if (events.back().passes) events.push_back(suction(piece, ContactEvent(events.back())));
+      events.push_back(suction(piece, ContactEvent(events.back())));
     }
     if (piece.stretch != Stretch::tail)
       events.push_back(length_event(profile, i, at_mid && !topology.mid_touch));
