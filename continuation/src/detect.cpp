@@ -66,12 +66,15 @@ std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, co
   const std::vector<EventFunction>& at_base = segment.base().events;
   const Sample* top = &hi;
   std::optional<Located> found;
+  // Functions that vanish close together: where one has its zero in a place that cannot be solved, another comes before it.
+  std::vector<std::string> unsolved;
   for (int round = 0; round < 20; ++round) {
     const EventFunction* first = nullptr;
     double first_s = top->s;
     for (const EventFunction& event : top->events) {
       const EventFunction* base = find(at_base, event.name);
       if (!base || (found && event.name == found->event)) continue;
+      if (std::find(unsolved.begin(), unsolved.end(), event.name) != unsolved.end()) continue;
       const int sign = sign_of(signs, event.name);
       const double f_base = sign * base->value, f_top = sign * event.value;
       if (f_top >= -zero) continue;
@@ -112,6 +115,12 @@ std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, co
     if (!bracket.converged && event.precision > narrow) {
       event.note = "bracket not converged: " + segment.failure();
     }
+    if (!bracket.converged) {
+      unsolved.push_back(name);
+      if (!found) found = std::move(event);
+      continue;
+    }
+    if (found && event.s > found->hi) return found;
     found = std::move(event);
     // Another event may have changed sign before this one.
     Sample* below = segment.at(bracket.lo, false);

@@ -131,24 +131,35 @@ bool hardly_apart(const Profile& profile, int link) {
   return touches == 2;
 }
 
-/// Length below which the line beside a gap carries it; some shorter than it was when it became an arc.
-std::optional<double> carried_length(const Profile& profile, int link, bool begins_at_mid) {
-  constexpr double shorter = 0.75;
-  if (profile.pieces[link].stretch != Stretch::gap) return std::nullopt;
+/// What meets where a gap closes.
+struct Sides {
   int edges = 0, touches = 0;
+};
+
+Sides sides(const Profile& profile, int link) {
+  Sides out;
   for (const Contact& c : profile.contacts)
-    if (c.joint == link || c.joint == link + 1) ++(c.edge ? edges : touches);
+    if (c.joint == link || c.joint == link + 1) ++(c.edge ? out.edges : out.touches);
+  return out;
+}
+
+/// Length below which the line beside a gap carries it; some shorter than it was when it became an arc.
+std::optional<double> carried_length(const Sides& at, bool begins_at_mid) {
+  constexpr double shorter = 0.75;
   const double inside = shorter * std::sqrt(5.0) * carried_inside;
-  if (begins_at_mid && edges == 1 && touches == 0) return 0.5 * inside;
-  if (edges == 2) return inside;
-  if (edges == 1 && touches == 1) return shorter * (5.0 / 3.0) * carried_beside_touch;
+  if (begins_at_mid && at.edges == 1 && at.touches == 0) return 0.5 * inside;
+  if (at.edges == 2) return inside;
+  if (at.edges == 1 && at.touches == 1) return shorter * (5.0 / 3.0) * carried_beside_touch;
   return std::nullopt;
 }
 
 ContactEvent length_event(const Profile& profile, int i, bool begins_at_mid) {
-  const auto carried = carried_length(profile, i, begins_at_mid);
-  ContactEvent event{Kind::length, i, length_of(profile.pieces[i]) - carried.value_or(least_length),
-                     profile.pieces[i].s(0)};
+  const Piece& piece = profile.pieces[i];
+  const bool gap = piece.stretch == Stretch::gap;
+  const Sides at = gap ? sides(profile, i) : Sides{};
+  const auto carried = gap ? carried_length(at, begins_at_mid) : std::nullopt;
+  const double least = gap && at.touches == 2 ? least_between_touches : least_length;
+  ContactEvent event{Kind::length, i, length_of(piece) - carried.value_or(least), piece.s(0)};
   event.redrawn = carried.has_value();
   event.imminent = hardly_apart(profile, i);
   return event;

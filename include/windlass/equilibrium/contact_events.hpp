@@ -30,6 +30,8 @@ namespace windlass::equilibrium {
 /// Forces of an arc of length ℓ carry rounding errors like 1/ℓ: it gives way to the topology without it this early, and
 /// the event itself is located there.
 inline constexpr double least_length = 1e-3;
+/// The curvature of two touches falls with the square of the gap between them; here it still is a hundred times its rounding.
+inline constexpr double least_between_touches = 5e-3;
 
 /// Widths of suction a line carries for a gap, √5 and 5/3 times as long [ρ]. The height of the gap is then below 1e-11; energy
 /// and R_tot, which see the square of what the line does wrong, change by less than 1e-9, the moment at a touch by 1e-7.
