@@ -14,7 +14,7 @@ const Vector& BorderedSystem::defect() {
   Vector f = problem_.residual(it_.x, it_.p);
   const Eigen::Index m = borders_.psi.cols();
   if (m > 0) f += borders_.psi * it_.y.tail(m);
-  residual_ = f.size() ? f.lpNorm<Eigen::Infinity>() : 0.0;
+  residual_ = problem_.residual_norm(f);
   if (!std::isfinite(residual_)) throw std::runtime_error("the residual is not finite");
   defect_.head(n_) = -f;
   defect_.tail(size() - n_) = borders_.g - borders_.c.transpose() * it_.u - borders_.d * it_.y;

@@ -7,6 +7,8 @@
 
 namespace continuation {
 
+double Problem::residual_norm(const Vector& f) const { return f.size() ? f.lpNorm<Eigen::Infinity>() : 0.0; }
+
 Vector Problem::parameter_derivative(const Vector& x, const Vector& p, Eigen::Index k) {
   const double h = std::cbrt(std::numeric_limits<double>::epsilon()) * std::max(1.0, std::abs(p[k]));
   const auto at = [&](double value) {

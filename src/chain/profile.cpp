@@ -208,11 +208,6 @@ double contact_force(const Vector3d& n_before, const Vector3d& n_after, double a
 /// n(−s) at a symmetry point: the half-turn about e_y of n(s), reversed.
 Vector3d reflected(const Vector3d& n) { return {n(0), -n(1), n(2)}; }
 
-bool is_contact(const Chain& chain, int joint) {
-  const JointKind kind = chain.joint(joint).kind();
-  return kind == JointKind::touch || kind == JointKind::edge;
-}
-
 /// How often a contact counts on the whole rod.
 double copies(const Topology& topology, int joint) {
   return topology.half && !(topology.mid_touch && joint == 0) ? 2.0 : 1.0;
@@ -228,7 +223,7 @@ Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod
     out.pieces.push_back(sample_link(chain, rod, x, loads, i, kinds[i]));
   unroll(out.pieces);
   for (int j = 0; j < chain.joint_count(); ++j) {
-    if (!is_contact(chain, j)) continue;
+    if (!chain.is_contact(j)) continue;
     Contact c;
     c.joint = j;
     c.edge = chain.joint(j).kind() == JointKind::edge;
@@ -280,7 +275,7 @@ double total_contact_force(const Chain& chain, const Topology& topology, const R
       n_first.head(n.size()) = n;
       n_last = n_first;
     }
-    if (is_contact(chain, i))
+    if (chain.is_contact(i))
       sum += copies(topology, i) * contact_force(i > 0 ? n_before : reflected(n_first), n_first,
                                                  chain.joint(i).angle(chain.coordinates(x, i)));
     n_before = n_last;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "windlass/chain/singular_matrix.hpp"
+#include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/equilibrium/start.hpp"
 #include "windlass/rod/quaternion.hpp"
 #include "windlass/scene/keys.hpp"
@@ -128,7 +129,19 @@ double RodProblem::as_given(double p, std::size_t k) const { return scene::as_gi
 Vector RodProblem::residual(const Vector& x, const Vector& p) {
   factored_x_.resize(0);      // the index reads the arcs' gradients too, which now belong to x
   const Loads at = loads(p);  // may rebuild the chain
+  closures_.clear();
+  for (int i = 0; i < chain_->link_count(); ++i) {
+    const double length = chain_->closure_row(i) >= 0 ? chain_->length(x, at, i) : 1.0;
+    for (int k = 0; k < chain_->link(i).arc->forces() && length < 1.0; ++k)
+      closures_.emplace_back(chain_->closure_row(i) + k, std::max(length, least_length));
+  }
   return chain_->residual(x, at);
+}
+
+double RodProblem::residual_norm(const Vector& f) const {
+  double norm = Problem::residual_norm(f);
+  for (const auto& [row, length] : closures_) norm = std::max(norm, std::abs(f(row)) / (length * length));
+  return norm;
 }
 
 void RodProblem::factor(const Vector& x, const Vector& p, const Eigen::MatrixXd& b, const Eigen::MatrixXd& c,

@@ -62,6 +62,10 @@ class Problem {
   /// F(x, p); shape n. @throws std::domain_error when x or p lies outside F's domain (the step is then cut).
   virtual Vector residual(const Vector& x, const Vector& p) = 0;
 
+  /// Size of a residual F(x, p) just evaluated, for stopping rules. The default is max |F|; a problem whose equations have
+  /// different units weighs them.
+  virtual double residual_norm(const Vector& f) const;
+
   /// Assembles and factors the bordered matrix at (x, p). @throws std::runtime_error if it is singular.
   virtual void factor(const Vector& x, const Vector& p, const Matrix& B, const Matrix& C,
                       const Matrix& D) = 0;

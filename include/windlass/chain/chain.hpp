@@ -47,7 +47,7 @@ class Chain {
   /// variations, whose eigenvalues must not prefer one side, the mean spin of the outermost contacts is held instead.
   /// Sliding of the rod along itself costs T exp(−2√(T/B) L_tail) or so, hence next to nothing: the mean arclength of the
   /// outermost contacts is held, ½(s_first + s_last) = c, by forces λ/2 round the cylinder at these two. They are zero at
-  /// an equilibrium; see RodProblem::release.
+  /// an equilibrium; see RodProblem::settle.
   struct Gauges {
     bool half_turn =
         false;  ///< half chain: the first joint is mapped to itself, at s = 0; holds its odd motions
@@ -70,6 +70,12 @@ class Chain {
   Eigen::Index geometric_size() const { return geometric_size_; }
   /// Row of a joint's location condition, and place of its arclength in an increment; −1: it does not locate itself.
   Eigen::Index arclength_row(int joint) const { return numbering_.location[joint]; }
+  /// First of a link's closure equations, and place of its unknown force in an increment; −1: the force is given.
+  Eigen::Index closure_row(int link) const { return numbering_.force[link]; }
+  bool is_contact(int joint) const {
+    return joints_[joint]->kind() == contact::JointKind::touch ||
+           joints_[joint]->kind() == contact::JointKind::edge;
+  }
   /// Is the arclength of this joint unknown?
   bool locates(int joint) const { return joints_[joint]->locates() && !(half() && joint == 0); }
   /// Does a gauge hold the rod against sliding along itself in the equilibrium equations?
@@ -194,10 +200,6 @@ class Chain {
   MatrixXd condensed_variation(Purpose purpose, const Numbering& numbering, const VectorXd& x,
                                const Loads& loads) const;
   contact::Joint::Location location(const VectorXd& x, int joint) const;
-  bool is_contact(int joint) const {
-    return joints_[joint]->kind() == contact::JointKind::touch ||
-           joints_[joint]->kind() == contact::JointKind::edge;
-  }
   /// X_b − X_a of a link's ends.
   contact::SmallVector rise(const VectorXd& x, const Placed& placed, int link) const;
   /// Adds to a contact's place, rests included.
@@ -236,8 +238,8 @@ class Chain {
   bool in_contact_ = false;
   Eigen::Index slide_at_ = -1;                                   ///< place of (c, λ) in the state
   std::vector<Eigen::Index> joint_at_, force_at_, interior_at_;  // offsets in the state
-  std::vector<Eigen::Index> rest_at_;  ///< rests of (s, angle, height) in the state, of contacts only
-  std::vector<Eigen::Index> joint_row_, force_row_, interior_row_;  // offsets in the increment
+  std::vector<Eigen::Index> rest_at_;       ///< rests of (s, angle, height) in the state, of contacts only
+  std::vector<Eigen::Index> interior_row_;  // offsets in the increment
   Eigen::Index ambient_size_ = 0, size_ = 0, dense_size_ = 0, geometric_size_ = 0;
 
   Numbering numbering_;

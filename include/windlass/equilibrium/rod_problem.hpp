@@ -39,6 +39,8 @@ class RodProblem final : public continuation::Problem {
 
   Eigen::Index size() const override { return chain_->size(); }
   Vector residual(const Vector& x, const Vector& p) override;
+  /// Closure of an arc of length ℓ < 1 in units of ℓ²: what an error there does to the arc's curvature.
+  double residual_norm(const Vector& f) const override;
   void factor(const Vector& x, const Vector& p, const Eigen::MatrixXd& b, const Eigen::MatrixXd& c,
               const Eigen::MatrixXd& d) override;
   Vector solve(const Vector& f, const Vector& g) override { return chain_->solve(f, g); }
@@ -138,7 +140,9 @@ class RodProblem final : public continuation::Problem {
   contact::Loads base_;
   std::vector<double contact::Loads::*> fields_;  ///< where each parameter lives; null: rebuilds the rod
   std::unique_ptr<chain::Chain> chain_, finer_;   ///< finer_: one more stage, for the error estimate
-  Vector factored_x_, factored_p_;                ///< where chain_ was factored last; empty: unknown
+  std::vector<std::pair<Eigen::Index, double>>
+      closures_;                    ///< rows and lengths of the last residual's short arcs
+  Vector factored_x_, factored_p_;  ///< where chain_ was factored last; empty: unknown
   struct Counts {
     Vector x, p;                             ///< where; empty: nowhere
     std::array<int, 2> negative = {-1, -1};  ///< even, odd; −1: not counted
