@@ -39,6 +39,7 @@ void fields(auto& a, Is<Point> auto& point) {
   a("before", point.before), a("after", point.after), a("note", point.note);
   a("precision", point.precision), a("bracket_lo", point.bracket_lo), a("bracket_hi", point.bracket_hi);
   a("multiplicity", point.multiplicity), a("branch_point", point.branch_point);
+  a("breaking", point.breaking);
   a("next_problem", point.next_problem), a("next_x", point.next_x), a("next_p", point.next_p);
 }
 

@@ -111,6 +111,9 @@ class Tracer {
     for (int i = state_.first_special; i < static_cast<int>(diagram().specials.size()); ++i) {
       const Point& point = special(i).point;
       if (point.type != PointType::branch_point) continue;
+      if (limits_.breaking_arms_of_stable && broken(special(i)) &&
+          std::min(point.index, point.index_after) > 0)
+        continue;
       if (depth >= limits_.max_depth) {
         diagram().lost.push_back(point.label + ": max_depth = " + std::to_string(limits_.max_depth) +
                                  " reached, its arms are not walked");
@@ -122,6 +125,16 @@ class Tracer {
         diagram().inadmissible.push_back(point.label + ": " + arm);
       for (Arm& arm : arms.arms) state_.pending.push_back({std::move(arm), i, depth + 1, false});
     }
+  }
+
+  /// Is the symmetry of the diagram's problem broken at this point, or on its branch already?
+  bool broken(const SpecialPoint& point) const {
+    if (point.point.breaking) return true;
+    const std::string& origin = state_.diagram.branches[static_cast<std::size_t>(point.branch)].origin;
+    const auto& all = state_.diagram.specials;
+    const auto from = std::find_if(all.begin(), all.end(),
+                                   [&](const SpecialPoint& other) { return other.point.label == origin; });
+    return !origin.empty() && from != all.end() && broken(*from);
   }
 
   // A branch that joined the arm's branch point came along this very arm.

@@ -215,6 +215,7 @@ Sample* Walker::close(Segment& segment, Sample& end, Located* fold) {
 
 Point Walker::special(Segment& segment, const Located& located) {
   Point point;
+  point.breaking = located.problem != nullptr;
   point.problem = (located.problem ? located.problem : segment.problem())->clone();
   point.x = located.sample.it.x;
   point.p = located.sample.it.p;

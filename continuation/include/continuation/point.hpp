@@ -36,6 +36,7 @@ struct Point {
   double bracket_hi = 0.0;                          ///< the point was shut in
   int multiplicity = 0;                             ///< of a branch point: dimension of the kernel
   std::shared_ptr<const BranchPoint> branch_point;  ///< null vectors and tangents, where polished
+  bool breaking = false;  ///< its kernel breaks the symmetry of the walked problem: see Problem::unrestricted
   std::shared_ptr<Problem> next_problem;  ///< beyond an event; null if the branch ends there or is lost
   Vector next_x;                          ///< its corrected state
   Vector next_p;
