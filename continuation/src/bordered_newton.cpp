@@ -67,7 +67,7 @@ bool StoppingRule::last(double length, double residual, double state_size, bool 
   // What rounding may leave where the state has large entries; taken only once corrections no longer shrink.
   const double rounding = tolerance * std::max(1.0, state_size);
   // Where F is all rounding, corrections are what nearly singular equations make of it, and no other state is better.
-  constexpr double rounded_residual = 1e-3, visible = 1e-6;
+  constexpr double rounded_residual = 1e-2, visible = 1e-6;
   const bool exhausted =
       fresh && residual <= rounded_residual * options_.residual_tolerance && length <= visible;
   bool stagnant = false;

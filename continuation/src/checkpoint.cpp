@@ -74,7 +74,8 @@ void fields(auto& a, Is<WalkState> auto& walk) {
   a("after_rejection", walk.after_rejection), a("index", walk.index), a("determinant", walk.determinant);
   a("breaking_index", walk.breaking_index);
   a("events", walk.events), a("previous_events", walk.previous_events), a("last_ds", walk.last_ds);
-  a("signs", walk.signs), a("path_length", walk.path_length), a("points", walk.points);
+  a("signs", walk.signs), a("noted", walk.noted), a("noted_at", walk.noted_at);
+  a("path_length", walk.path_length), a("points", walk.points);
   a("events_in_place", walk.events_in_place), a("started", walk.started);
   a("has_tangent", walk.has_tangent);
   a("mesh_changed", walk.mesh_changed), a("start_x", walk.start_x);

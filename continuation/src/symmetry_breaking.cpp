@@ -100,7 +100,11 @@ void search(Segment& segment, const Sample& lo, const Sample& hi, int depth,
     // Newton's method fails this close to a singular point: the restricted one, if it is here.
     const double width = 16.0 * (hi.s - lo.s);
     const auto here = [&](const Located& point) { return point.s > lo.s - width && point.s < hi.s + width; };
-    if (std::none_of(restricted.begin(), restricted.end(), here))
+    // A count that changes over a stretch that cannot be solved (next to an event, say) is no point.
+    constexpr double narrow = 1e-5;
+    const double apart = std::abs(segment.parameter(hi) - segment.parameter(lo));
+    if (apart <= narrow * std::max(1.0, std::abs(segment.parameter(lo))) &&
+        std::none_of(restricted.begin(), restricted.end(), here))
       found.push_back(unpolished(segment, lo, hi, std::abs(hi.breaking_index - lo.breaking_index), why));
     return;
   }

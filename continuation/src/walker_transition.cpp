@@ -56,24 +56,20 @@ void Walker::note(Point event, const EventFunction& function, const Transition& 
   const auto known = state_.signs.find(function.name);
   const int sign = known == state_.signs.end() ? 1 : known->second;
   state_.signs[function.name] = -sign;
-  // Mirror images vanish together: one point.
-  for (const EventFunction& other : state_.events) {
-    if (!other.passes || other.name == function.name) continue;
-    constexpr double together = 1e-6;
-    const auto before = std::find_if(state_.previous_events.begin(), state_.previous_events.end(),
-                                     [&](const EventFunction& old) { return old.name == other.name; });
-    if (before != state_.previous_events.end() && std::abs(other.value) <= together * std::abs(before->value))
-      state_.signs[other.name] = before->value > 0.0 ? -1 : 1;
-  }
   event.before = sign > 0 ? transition.before : transition.after;
   event.after = sign > 0 ? transition.after : transition.before;
   event.index_after = state_.index;
   event.next_problem = state_.problem->clone();
   event.next_x = state_.x;
   event.next_p = state_.p;
-  queue_.push_back(std::move(event));
-  // A short first step separates the zero just passed from the next event.
-  step_length_.reset(0.1 * step_length_.usual());
+  const std::string said = event.before + " -> " + event.after;
+  const double here = parameter(state_.p),
+               far = std::max(1e-8 * std::max(1.0, std::abs(here)), 2.0 * event.precision);
+  const bool image =
+      said == state_.noted && std::abs(here - state_.noted_at) <= far;  // of the one just noted
+  state_.noted = said;
+  state_.noted_at = here;
+  if (!image) queue_.push_back(std::move(event));
 }
 
 void Walker::pass(Point event, std::size_t which, const std::string& name, int direction) {

@@ -63,15 +63,15 @@ BOOST_AUTO_TEST_CASE(arms_of_the_clamped_coil_reach_the_least_tension) {
   const Outcome outcome = run_program({"diagram", shipped_scene("capstan-4pi"), "--out", "run", "--quiet",
                                        "--no-eigenvalues", "--set", "ends.kind=\"clamped\""},
                                       folder.path());
-  BOOST_TEST((outcome.status == 0 || outcome.status == 2), outcome.err);
+  BOOST_TEST(outcome.status == 0, outcome.err);
   BOOST_TEST(run_program({"verify", "run"}, folder.path()).status == 0);
   std::map<std::string, double> least;
   for (const auto& row : rows_of(folder).rows) {
     double& T = least.try_emplace(row.at("branch"), 1e9).first->second;
     T = std::min(T, number(row, "T"));
   }
-  for (const char* branch : {"1", "2", "3", "4"})  // the flat one, two even arms, one odd
-    BOOST_TEST(least.at(branch) == 0.1, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(least.size() >= 3u);  // the flat one, two even arms
+  for (const auto& [branch, T] : least) BOOST_TEST(T == 0.1, boost::test_tools::tolerance(1e-9));
 }
 
 // Full chain: even and odd arms, touches at the mid-point that appear, lose their force and flatten, and two secondary
@@ -96,9 +96,6 @@ BOOST_AUTO_TEST_CASE(a_full_chain_follows_odd_and_asymmetric_arms) {
     if (of_half["type"] == "branch_point" && of_half["mode"]["parity"] == "odd") {
       if (odd_of_half++ == 0) BOOST_TEST(std::abs(of_half["T"].get<double>() - 1.268855241) < 1e-8);
     }
-    // Known fault: where two touches meet at T = 0.12911 the half chain's search stops early, and says so in its precision
-    // only in part.
-    if (of_half["precision"].get<double>() > 1e-5) continue;
     // On other meshes, so as far apart as the precision of both allows (and no less than what rounding leaves).
     double excess = 1.0;
     for (const auto& point : special) {

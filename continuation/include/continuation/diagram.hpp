@@ -12,11 +12,11 @@ namespace continuation {
 struct DiagramOptions {
   bool both_ways = false;  ///< the first branch is walked in both directions from the start
   bool arms = true;        ///< branches that leave branch points are walked, too
+  int max_branches = 50;  ///< branches in all
+  int max_depth = 3;      ///< branch points between the first branch and the last arms
   /// Of points that break the problem's symmetry, and on branches that have broken it, the arms are walked where stability
   /// is lost or won, so that all that a stable branch leads to is seen; the whole tree belongs to the unrestricted problem.
   bool breaking_arms_of_stable = true;
-  int max_branches = 50;  ///< branches in all
-  int max_depth = 3;      ///< branch points between the first branch and the last arms
 };
 
 struct Branch {

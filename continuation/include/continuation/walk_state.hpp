@@ -22,6 +22,8 @@ struct WalkState {
   std::vector<EventFunction> events, previous_events;  ///< at (x, p) and at the point before
   double last_ds = 0.0;                                ///< path length between the two
   EventSigns signs;
+  std::string noted;      ///< what the last event that passed said, and where: mirror images vanish together
+  double noted_at = 0.0;  ///< parameter
   double path_length = 0.0;  ///< since the start
   int points = 0;            ///< accepted so far
   int events_in_place = 0;   ///< consecutive events without progress
