@@ -56,8 +56,7 @@ BOOST_AUTO_TEST_CASE(a_flat_coil_stays_flat_where_a_turn_costs_nothing) {
   }
 }
 
-// The arm of index 2 that leaves the clamped 4 pi coil second goes through a dozen contact topologies. Of the two arms that
-// break the half-turn the second is lost (exit 2) where gaps open at one edge of a line, one after the other.
+// The arm of index 2 that leaves the clamped 4 pi coil second goes through a dozen contact topologies.
 BOOST_AUTO_TEST_CASE(arms_of_the_clamped_coil_reach_the_least_tension) {
   const TemporaryFolder folder;
   const Outcome outcome = run_program({"diagram", shipped_scene("capstan-4pi"), "--out", "run", "--quiet",
