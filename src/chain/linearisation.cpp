@@ -39,8 +39,7 @@ VectorXd nodes_of(const Arc& arc) {
   const VectorXd& lobatto = bvp::CollocationTable::get(arc.stages()).lobatto;
   VectorXd sigma(arc.interior_nodes() + 2);
   for (int e = 0; e < arc.elements(); ++e)
-    sigma.segment(e * arc.stages(), arc.stages() + 1) =
-        mesh[e] + (mesh[e + 1] - mesh[e]) * lobatto.array();
+    sigma.segment(e * arc.stages(), arc.stages() + 1) = mesh[e] + (mesh[e + 1] - mesh[e]) * lobatto.array();
   return sigma;
 }
 
@@ -61,7 +60,8 @@ Linearisation::Linearisation(const Chain& chain, const RodKind& rod, const Vecto
     for (const auto& entry : part.hessian)
       if (entry.row() == entry.col() && entry.row() < inner) diagonal(entry.row()) += entry.value();
     if (inner > 0)
-      stiffest_ = std::max(stiffest_, (diagonal.array().abs() / part.root.head(inner).array().square()).maxCoeff());
+      stiffest_ =
+          std::max(stiffest_, (diagonal.array().abs() / part.root.head(inner).array().square()).maxCoeff());
   }
 }
 
@@ -88,7 +88,8 @@ Linearisation::Part Linearisation::tail_part(const RodKind& rod, int link) const
   part.nodes = formula.configurations(part.placed.point(), distances);
   if (!starts) part.nodes = part.nodes.rowwise().reverse().eval();
   part.placed.interior = part.nodes.data() + part.nodes.rows();
-  (starts ? part.placed.right : part.placed.left).q = starts ? part.nodes.rightCols<1>() : part.nodes.leftCols<1>();
+  (starts ? part.placed.right : part.placed.left).q =
+      starts ? part.nodes.rightCols<1>() : part.nodes.leftCols<1>();
   part.tail->factor(part.placed.point(), part.condensed);
   return part;
 }

@@ -168,6 +168,30 @@ VectorXd Variation::solve(VectorXd f) const {
   return f;
 }
 
+VectorXd Variation::product(const VectorXd& v) const {
+  VectorXd out = VectorXd::Zero(size_), w, image, y(dense_.size());
+  for (const Place& here : places_) {
+    const Linearisation::Part& part = *here.part;
+    const Eigen::Index inner = part.arc->interior_tangent(), ends = here.local.columns.rows();
+    w.resize(inner + ends);
+    w.head(inner) = v.segment(here.interior, inner);
+    w.tail(ends) = here.local.columns * gathered(here, v);
+    image.setZero(inner + ends);
+    for (const auto& entry : part.hessian) image(entry.row()) += entry.value() * w(entry.col());
+    out.segment(here.interior, inner) += image.head(inner);
+    const VectorXd share = here.local.columns.transpose() * image.tail(ends);
+    for (Eigen::Index r = 0; r < share.size(); ++r) out(here.at[r]) += share(r);
+  }
+  for (Eigen::Index k = 0; k < y.size(); ++k) y(k) = v(dense_[k]);
+  const VectorXd joints = 0.5 * (joints_ * y + joints_.transpose() * y);
+  for (Eigen::Index k = 0; k < y.size(); ++k) out(dense_[k]) += joints(k);
+  if (phase_ >= 0) {
+    out += v(phase_) * motion_;
+    out(phase_) += motion_.dot(v);
+  }
+  return out;
+}
+
 Variation::Quotient Variation::quotient(const VectorXd& v) const {
   double value = 0.0, sizes = 0.0;
   const auto add = [&](double term) {

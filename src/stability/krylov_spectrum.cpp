@@ -1,8 +1,10 @@
 #include "krylov_spectrum.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <utility>
 
@@ -10,6 +12,7 @@ namespace windlass::stability {
 
 using chain::Variation;
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using petsc::check;
 
@@ -77,8 +80,10 @@ bool KrylovSpectrum::find(EPSWhich which, int wanted) {
   constexpr int spare = 7;
   wanted = std::min(wanted, left());
   if (wanted <= 0) return false;
-  check(EPSSetWhichEigenpairs(eps_, which));
-  check(EPSSetDimensions(eps_, wanted, std::min(left(), wanted + std::max(spare, wanted)), PETSC_DEFAULT));
+  const int most = std::min(left(), wanted + std::max(spare, wanted));
+  if (which != which_) check(EPSSetWhichEigenpairs(eps_, which_ = which));
+  if (wanted != wanted_ || most != most_)  // each time would set SLEPc up anew
+    check(EPSSetDimensions(eps_, wanted_ = wanted, most_ = most, PETSC_DEFAULT));
   petsc::copy(start(), vector_);
   Vec raw = vector_;
   check(EPSSetInitialSpace(eps_, 1, &raw));
@@ -113,17 +118,73 @@ VectorXd KrylovSpectrum::start() {
 }
 
 int KrylovSpectrum::negative() const {
-  return static_cast<int>(std::count_if(found_.begin(), found_.end(),
-                                        [](const Pair& pair) { return pair.value <= pair.rounding; }));
+  return static_cast<int>(std::count_if(found_.begin(), found_.end(), [](const Pair& pair) {
+    return pair.theta < 0.0 || pair.value <= pair.rounding;
+  }));
+}
+
+/// An arc that is nearly singular by itself costs its factors digits, and K⁻¹ with them: 1/θ and the quotient of K itself
+/// then differ. The Ritz pairs of K over the vectors found and their corrections K⁻¹(K v − μ M v) are closer by the
+/// square of what is wrong with K⁻¹.
+void KrylovSpectrum::refine() {
+  constexpr double enough = 1e-8;  // a vector as far off has a quotient off by its square
+  constexpr int steps = 4;
+  const auto exact = [](const Pair& pair) {
+    return std::abs(1.0 / pair.theta - pair.value) <= enough * std::abs(pair.value) + pair.rounding;
+  };
+  if (std::all_of(found_.begin(), found_.end(), exact)) return;
+  const auto count = static_cast<Index>(found_.size());
+  for (int step = 0; step < steps; ++step) {
+    MatrixXd basis(variation_->size(), 2 * count), turned(points_, 2 * count);
+    Index columns = 0;
+    const auto add = [&](VectorXd v) {
+      VectorXd w = variation_->rotations(v);
+      const double size = w.norm();
+      for (int again = 0; again < 2; ++again) {
+        const VectorXd along = turned.leftCols(columns).transpose() * w;
+        w -= turned.leftCols(columns) * along;
+        v -= basis.leftCols(columns) * along;
+      }
+      if (!(w.norm() > 1e-10 * size)) return;
+      basis.col(columns) = v / w.norm();
+      turned.col(columns++) = w / w.norm();
+    };
+    for (const Pair& pair : found_) add(pair.v);
+    for (const Pair& pair : found_)
+      add(variation_->solve(variation_->product(pair.v) -
+                            pair.value * variation_->loads(variation_->rotations(pair.v))));
+    MatrixXd image(variation_->size(), columns);
+    for (Index k = 0; k < columns; ++k) image.col(k) = variation_->product(basis.col(k));
+    const MatrixXd reduced = basis.leftCols(columns).transpose() * image;
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> ritz(0.5 * (reduced + reduced.transpose()));
+    // Those that are mostly of the vectors found, not of their corrections.
+    const VectorXd share = ritz.eigenvectors().topRows(count).colwise().squaredNorm();
+    std::vector<Index> order(columns);
+    std::iota(order.begin(), order.end(), Index{0});
+    std::sort(order.begin(), order.end(), [&](Index a, Index b) { return share(a) > share(b); });
+    order.resize(count);
+    std::sort(order.begin(), order.end());
+    std::sort(found_.begin(), found_.end(), [](const Pair& a, const Pair& b) { return a.value < b.value; });
+    bool done = true;
+    for (Index k = 0; k < count; ++k) {
+      Pair& pair = found_[k];
+      pair.v = basis.leftCols(columns) * ritz.eigenvectors().col(order[k]);
+      const Variation::Quotient quotient = variation_->quotient(pair.v);
+      done = done &&
+             std::abs(quotient.value - pair.value) <= enough * std::abs(quotient.value) + quotient.rounding;
+      pair.value = quotient.value, pair.rounding = quotient.rounding;
+    }
+    if (done) return;
+  }
 }
 
 void KrylovSpectrum::find_negative(int index) {
   while (negative() < index) {
     const std::size_t before = found_.size();
     const bool all = find(EPS_SMALLEST_REAL, index - negative());
-    const bool hidden = std::any_of(found_.begin() + static_cast<long>(before), found_.end(), [&](const Pair& pair) {
-      return std::abs(pair.theta) * most_dominance < bound_;
-    });
+    const bool hidden =
+        std::any_of(found_.begin() + static_cast<long>(before), found_.end(),
+                    [&](const Pair& pair) { return std::abs(pair.theta) * most_dominance < bound_; });
     if (hidden) {
       found_.resize(before);
       if (!find(EPS_LARGEST_MAGNITUDE, 1)) return;
@@ -155,6 +216,7 @@ std::vector<Pair> KrylovSpectrum::solve(const Variation& variation, int count) {
   if (find(EPS_LARGEST_MAGNITUDE, 1)) {
     find_negative(variation.negative());
     find_nearest(count);
+    refine();
   }
   variation_ = nullptr;
   return std::move(found_);

@@ -32,6 +32,7 @@ class KrylovSpectrum {
   bool find(EPSWhich which, int wanted);
   void find_negative(int index);
   void find_nearest(int count);
+  void refine();
   Eigen::VectorXd start();
   /// Pairs that are, or may be, those that the inertia counts as negative.
   int negative() const;
@@ -47,6 +48,8 @@ class KrylovSpectrum {
   std::vector<Pair> found_;
   double bound_ = 0.0;  ///< of |θ| among those not found
   unsigned starts_ = 0;
+  EPSWhich which_ = EPS_WHICH_USER;  ///< what SLEPc is set up for
+  int wanted_ = 0, most_ = 0;
 };
 
 /// Keeps the solvers of the two last sizes: a half chain is asked for even and odd variations in turn.

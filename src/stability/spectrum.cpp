@@ -1,6 +1,7 @@
 #include "windlass/stability/spectrum.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -14,17 +15,22 @@ using Eigen::VectorXd;
 
 namespace {
 
+/// What the error that Newton's method has left makes of the zero of a neutral turn [EI/ρ²].
+constexpr double turn = 3e-9;
+
 /// Sorts the pairs, turns the vectors and drops pairs above those wanted, but never a negative one.
 Spectrum ordered(std::vector<Pair> pairs, const chain::Variation& variation, int count) {
   std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.value < b.value; });
   Spectrum out;
   out.inertia_index = variation.negative();
-  int zero = 0;
-  for (const Pair& pair : pairs) {
-    out.index += pair.value < -pair.rounding;
-    zero += std::abs(pair.value) <= pair.rounding;
+  const auto nearest = std::min_element(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+    return std::abs(a.value) < std::abs(b.value);
+  });
+  for (auto pair = pairs.begin(); pair != pairs.end(); ++pair) {
+    if (pair == nearest && variation.neutral() && std::abs(pair->value) < turn) continue;
+    out.index += pair->value < -pair->rounding;
+    out.rounded |= std::abs(pair->value) <= pair->rounding;
   }
-  out.rounded = zero > (variation.neutral() ? 1 : 0);
   const auto kept = std::min<Index>(static_cast<Index>(pairs.size()), std::max(count, out.index));
   out.eigenvalues.resize(kept);
   out.rounding.resize(kept);

@@ -27,7 +27,8 @@ class Linearisation {
     bvp::EndsMatrix condensed;
     VectorXd root;                                ///< of the mass of interior and end configurations
     std::vector<Eigen::Triplet<double>> hessian;  ///< over interior, then ends
-    MatrixXd slope;  ///< dq/ds in the order of `root`, times the share that moves with the left and with the right end
+    MatrixXd
+        slope;  ///< dq/ds in the order of `root`, times the share that moves with the left and with the right end
   };
   Part own_part(int link) const;
   Part tail_part(const RodKind& rod, int link) const;
@@ -51,16 +52,17 @@ class Variation {
   /// @param at  must stay while this is in use
   Variation(const Linearisation& at, contact::Parity parity);
 
-  Eigen::Index size() const { return size_; }      ///< unknowns v; Chain::as_increment reads the first of them
+  Eigen::Index size() const { return size_; }  ///< unknowns v; Chain::as_increment reads the first of them
   Eigen::Index points() const { return points_; }  ///< numbers in Wᵀv
   /// Negative eigenvalues by the inertia of the factors, without a neutral turn's.
   int negative() const { return negative_; }
   /// May one of the eigenvalues be zero because a turn of the whole rod costs nothing (Chain::expect_neutral_turn)?
   bool neutral() const { return neutral_; }
 
-  VectorXd rotations(const VectorXd& v) const;                   ///< Wᵀ v
-  VectorXd loads(const Eigen::Ref<const VectorXd>& y) const;     ///< W y
-  VectorXd solve(VectorXd f) const;                              ///< K⁻¹ f
+  VectorXd rotations(const VectorXd& v) const;                ///< Wᵀ v
+  VectorXd loads(const Eigen::Ref<const VectorXd>& y) const;  ///< W y
+  VectorXd solve(VectorXd f) const;                           ///< K⁻¹ f, by the arcs' factors
+  VectorXd product(const VectorXd& v) const;                  ///< K v, by the arcs' uncondensed Hessians
 
   /// vᵀKv / vᵀMv by the arcs' uncondensed Hessians, whose error is the square of v's, and what rounding may have made of
   /// it: eps times the sum of the sizes of all terms.
@@ -89,8 +91,8 @@ class Variation {
   Eigen::Index size_ = 0, points_ = 0, phase_ = -1;
   int negative_ = 0;
   bool neutral_ = false;
-  MatrixXd joints_;                       ///< terms of the dense block that no arc makes
-  VectorXd motion_, reduced_, condensed_; ///< the phase's row over v; reduced; K⁻¹ of it in the interiors
+  MatrixXd joints_;                        ///< terms of the dense block that no arc makes
+  VectorXd motion_, reduced_, condensed_;  ///< the phase's row over v; reduced; K⁻¹ of it in the interiors
   std::shared_ptr<const class SymmetricFactors> factors_;
 };
 

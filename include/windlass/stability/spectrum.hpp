@@ -10,12 +10,14 @@ namespace windlass::stability {
 
 /// Finite eigenpairs K v = μ M v of a second variation, K indefinite (multipliers), M positive semidefinite.
 struct Spectrum {
-  Eigen::VectorXd eigenvalues;   ///< μ ascending; at least the asked number, or all there are [EI/ρ²]
-  Eigen::VectorXd rounding;      ///< what rounding may have made of each [EI/ρ²]
-  Eigen::MatrixXd eigenvectors;  ///< one column each, vᵀMv = 1, largest entry positive; Variation::size() × count
-  int index = 0;                 ///< negative eigenvalues found; zero to rounding counts as positive
-  int inertia_index = 0;         ///< the same from the inertia of K's factors
-  bool rounded = false;  ///< one is zero to rounding, not by symmetry: its sign, and so the index, means nothing
+  Eigen::VectorXd eigenvalues;  ///< μ ascending; at least the asked number, or all there are [EI/ρ²]
+  Eigen::VectorXd rounding;     ///< what rounding may have made of each [EI/ρ²]
+  Eigen::MatrixXd
+      eigenvectors;       ///< one column each, vᵀMv = 1, largest entry positive; Variation::size() × count
+  int index = 0;          ///< negative eigenvalues found; zero to rounding counts as positive
+  int inertia_index = 0;  ///< the same from the inertia of K's factors
+  bool rounded =
+      false;  ///< one is zero to rounding, not by symmetry: its sign, and so the index, means nothing
   bool agrees() const { return index == inertia_index; }
 };
 
