@@ -23,7 +23,7 @@ constexpr double negligible = 1e-13;
 /// A θ has the rounding of the largest |θ| in the search. Where that is larger than this times θ, it is taken out first.
 constexpr double most_dominance = 1e6;
 /// Of the residual, relative to θ: the error of the quotient is its square.
-constexpr double tolerance = 1e-8;
+constexpr double tolerance = 1e-7;
 
 }  // namespace
 
@@ -76,8 +76,8 @@ Pair KrylovSpectrum::pair(VectorXd y, double theta) const {
 
 bool KrylovSpectrum::find(EPSWhich which, int wanted) {
   // The extreme θ stand out: a few vectors suffice (SLEPc's default of 16 are 16 solutions), and where they do not it
-  // restarts.
-  constexpr int spare = 7;
+  // restarts, which costs as much as two of them on small problems.
+  constexpr int spare = 11;
   wanted = std::min(wanted, left());
   if (wanted <= 0) return false;
   const int most = std::min(left(), wanted + std::max(spare, wanted));
