@@ -74,9 +74,10 @@ class TailArc final : public bvp::Arc {
  private:
   struct State;
   struct Place;
+  struct FromEnd;
   State state(const bvp::ArcPoint& at) const;
   Place place(const State& state, double length, int sample) const;
-  double half_sine_squared(const State& state, double length, double distance, double& v) const;
+  double half_sine_squared(const State& state, double length, double distance, FromEnd& near) const;
   bvp::EndsMatrix ends_hessian(const bvp::ArcPoint& at) const;
 
   int dimension_;
