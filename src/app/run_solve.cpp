@@ -150,7 +150,9 @@ void print_summary(const equilibrium::Equilibria& found, const scene::Scene& sce
                    fmt::format("between s = {:.6g} and {:.6g}", solution.self_s[0], solution.self_s[1]));
   if (solution.stability) {
     fmt::print("  {:<12} index {}{}, lowest eigenvalues", "stability", solution.stability->index,
-               solution.stability->degenerate ? " (a contact carries no force)" : "");
+               solution.stability->degenerate
+                   ? " (degenerate: a contact carries no force or an eigenvalue is zero to rounding)"
+                   : "");
     for (std::size_t k = 0; k < std::min<std::size_t>(3, solution.stability->eigenvalues.size()); ++k)
       fmt::print(" {:.6g}", solution.stability->eigenvalues[k]);
     fmt::print("\n");

@@ -27,21 +27,22 @@ int run_stability(const RunRequest& request) {
     found = true;
     const equilibrium::Stability stability = spectrum_of_point(scene, run, k, request.eigenvalues, solver);
     writer.set_stability(name, stability);
-    // At a singular point the sign of the vanishing eigenvalue is rounding, and so is the count.
+    // At a singular point the sign of the vanishing eigenvalue is rounding or what bracketing left, and so is the count.
     double nearest = 1.0;
     for (double value : stability.eigenvalues) nearest = std::min(nearest, std::abs(value));
     disagreement |= nearest > 1e-9 && !stability.degenerate && stability.index != stability.inertia_index;
     nlohmann::ordered_json entry = {{"name", name},
                                     {"index", stability.index},
                                     {"inertia_index", stability.inertia_index},
-                                    {"eigenvalues", stability.eigenvalues}};
+                                    {"eigenvalues", stability.eigenvalues},
+                                    {"degenerate", stability.degenerate}};
     if (!request.common.json && !request.common.quiet) {
       std::printf("%-8s index %d (inertia %d) ", name.c_str(), stability.index, stability.inertia_index);
       for (double value : stability.eigenvalues) std::printf(" %.8g", value);
       if (!stability.modes.empty())
         std::printf("  lowest: %s plane, %s", (stability.modes[0].plane == "in" ? "in" : "out of"),
                     stability.modes[0].parity.c_str());
-      std::printf("\n");
+      std::printf(stability.degenerate ? "  degenerate\n" : "\n");
     }
     report["points"].push_back(entry);
   }

@@ -1,39 +1,13 @@
 #include <algorithm>
 
 #include "neutral_turn.hpp"
+#include "symmetric_factors.hpp"
 #include "windlass/chain/chain.hpp"
-
-/// LAPACK: Bunch-Kaufman factorisation of a symmetric matrix. Reaches the program through PETSc.
-extern "C" void dsytrf_(const char* uplo, const int* n, double* a, const int* lda, int* pivot, double* work,
-                        const int* work_size, int* info);
 
 namespace windlass::chain {
 
 using contact::JointKind;
 using contact::Parity;
-
-namespace {
-
-/// Number of eigenvalues of a symmetric matrix below zero, by Bunch-Kaufman factorisation (LAPACK dsytrf).
-int negative_eigenvalues(MatrixXd a) {
-  int n = static_cast<int>(a.rows()), info = 0, work_size = 64 * std::max(n, 1);
-  if (n == 0) return 0;
-  std::vector<int> pivot(n);
-  VectorXd work(work_size);
-  dsytrf_("L", &n, a.data(), &n, pivot.data(), work.data(), &work_size, &info);
-  int negative = 0;
-  for (int k = 0; k < n; ++k) {
-    if (pivot[k] > 0) {
-      negative += a(k, k) < 0.0;
-    } else {  // a 2×2 pivot has one eigenvalue of each sign
-      ++negative;
-      ++k;
-    }
-  }
-  return negative;
-}
-
-}  // namespace
 
 void Chain::add_gauges(const Numbering& numbering, Purpose purpose, const VectorXd& x,
                        MatrixXd& dense) const {
@@ -67,6 +41,15 @@ MatrixXd Chain::variation_matrix(Purpose purpose, const Numbering& numbering, co
   return dense;
 }
 
+MatrixXd Chain::condensed_share(Purpose purpose, const Local& local, const Arc& arc,
+                                const bvp::EndsMatrix& condensed, int link) const {
+  bvp::EndsMatrix hessian = with_commutator(arc, condensed, gradients_[link]);
+  // Odd variations at a symmetry point: the other half carries the opposite moment, the commutators cancel.
+  if (purpose == Purpose::odd && link == 0 && arc.ambient() == 4)
+    hessian.block(0, 0, 3, 3) = condensed.block(0, 0, 3, 3);
+  return local.columns.transpose() * hessian * local.columns;
+}
+
 MatrixXd Chain::condensed_variation(Purpose purpose, const Numbering& numbering, const VectorXd& x,
                                     const Loads& loads) const {
   MatrixXd dense = variation_matrix(purpose, numbering, x, loads);
@@ -74,11 +57,7 @@ MatrixXd Chain::condensed_variation(Purpose purpose, const Numbering& numbering,
   for (int i = 0; i < link_count(); ++i) {
     const Arc& arc = *links_[i].arc;
     const Local l = local(purpose, numbering, x, loads, i);
-    bvp::EndsMatrix hessian = with_commutator(arc, condensed_[i], gradients_[i]);
-    // Odd variations at a symmetry point: the other half carries the opposite moment, the commutators cancel.
-    if (purpose == Purpose::odd && i == 0 && arc.ambient() == 4)
-      hessian.block(0, 0, 3, 3) = condensed_[0].block(0, 0, 3, 3);
-    const MatrixXd share = l.columns.transpose() * hessian * l.columns;
+    const MatrixXd share = condensed_share(purpose, l, arc, condensed_[i], i);
     for (std::size_t r = 0; r < l.dofs.size(); ++r)
       for (std::size_t s = 0; s < l.dofs.size(); ++s) dense(l.dofs[r], l.dofs[s]) += share(r, s);
     if (numbering.phase < 0 || arc.interior_nodes() == 0) continue;
@@ -105,7 +84,7 @@ int Chain::index(const VectorXd& x, const Loads& loads, Parity parity) const {
   const MatrixXd dense = condensed_variation(purpose, numbering, x, loads);
   int negative = 0;
   for (const Link& link : links_) negative += link.arc->negative_pivots();
-  negative += neutral_turn_ ? negative_but_turn(dense, numbering.location) : negative_eigenvalues(dense);
+  negative += neutral_turn_ ? negative_but_turn(dense, numbering.location) : SymmetricFactors(dense).negative();
   return negative - numbering.constraints;
 }
 

@@ -200,10 +200,15 @@ int RodProblem::count(const Vector& x, const Vector& p, contact::Parity parity) 
 int RodProblem::total_index(const Vector& x, const Vector& p) {
   const bool counted = counts_.x.size() > 0 && counts_.x == x && counts_.p == p && counts_.negative[0] >= 0 &&
                        counts_.negative[1] >= 0;
-  if (!counted && (factored_x_.size() == 0 || factored_x_ != x || factored_p_ != p))
+  if (!counted) factored(x, p);
+  return count(x, p, contact::Parity::even) + count(x, p, contact::Parity::odd);
+}
+
+const chain::Chain& RodProblem::factored(const Vector& x, const Vector& p) {
+  if (factored_x_.size() == 0 || factored_x_ != x || factored_p_ != p)
     factor(x, p, Eigen::MatrixXd(chain_->size(), 0), Eigen::MatrixXd(chain_->size(), 0),
            Eigen::MatrixXd(0, 0));
-  return count(x, p, contact::Parity::even) + count(x, p, contact::Parity::odd);
+  return *chain_;
 }
 
 Vector RodProblem::parameter_derivative(const Vector& x, const Vector& p, Eigen::Index k) {

@@ -41,14 +41,18 @@ void choose_tails(std::vector<ArcMesh>& meshes, const Topology& topology, const 
 
 std::optional<Started> with_meshed_tails(RodProblem& problem, const Vector& x, const Vector& p) {
   std::vector<ArcMesh> meshes = problem.meshes();
-  if (std::none_of(meshes.begin(), meshes.end(), is_formula)) return std::nullopt;
+  const bool infinite = problem.rod().infinite;
+  if (!infinite && std::none_of(meshes.begin(), meshes.end(), is_formula)) return std::nullopt;
   const chain::Profile shape = problem.profile(x, p);
   const std::vector<double> s = problem.joint_places(x, p, shape);
   for (std::size_t i = 0; i < meshes.size(); ++i)
-    if (is_formula(meshes[i]))
+    if (is_formula(meshes[i]) || (infinite && problem.topology().stretches[i] == Stretch::tail))
       meshes[i] = meshed_tail(problem.loads(p), s[i + 1] - s[i], i == 0 && !problem.topology().half);
-  auto meshed = std::make_shared<RodProblem>(problem.scene_at(p), problem.spatial(), problem.topology(),
-                                             meshes, problem.keys());
+  // An infinite tail ends where it is straight to rounding: a rod as long as that has its modes.
+  scene::Scene scene = problem.scene_at(p);
+  if (infinite) scene.rod.length = 2.0 * s.back();
+  auto meshed =
+      std::make_shared<RodProblem>(scene, problem.spatial(), problem.topology(), meshes, problem.keys());
   Vector y = chain::guess_state(meshed->chain(), problem.topology(), meshed->rod(), shape, s);
   const int used = meshed->polish(y, p);
   if (used < 0) throw NoEquilibrium("Newton did not converge with the tails on a mesh");

@@ -68,6 +68,7 @@ ordered_json stability_json(const Solution& solution) {
   if (!solution.stability) return nullptr;
   ordered_json json;
   json["index"] = solution.stability->index;
+  json["inertia_index"] = solution.stability->inertia_index;
   json["eigenvalues"] = ordered_json::array();
   for (const double value : solution.stability->eigenvalues)
     json["eigenvalues"].push_back(finite_or_null(value));

@@ -96,6 +96,7 @@ Reference make_reference(const scene::Scene& scene) {
   }
   if (auto meshed = equilibrium::with_meshed_tails(*start.problem, start.x, start.p)) {
     start = *meshed;
+    out.scene.rod.length = start.problem->scene_at(start.p).rod.length;  // of an infinite rod
     start.x = start.problem->refine(start.x, start.p);
   }
   out.topology = start.problem->topology();

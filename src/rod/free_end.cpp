@@ -16,7 +16,7 @@ struct Time {
   double u, by_log_ratio, by_q;
 };
 
-Time time_from_end(double ratio, double q) {
+Time time_with_slopes(double ratio, double q) {
   const double below = 1.0 - ratio * q, x = ratio * (1.0 - q) / below, root = std::sqrt(1.0 - x);
   const double rf = boost::math::ellint_rf(x, ratio, 1.0, Plain());
   const double rf_x = -boost::math::ellint_rd(ratio, 1.0, x, Plain()) / 6.0;
@@ -28,8 +28,13 @@ Time time_from_end(double ratio, double q) {
 }  // namespace
 
 Elapsed elapsed(double ratio, double q) {
-  const Time time = time_from_end(ratio, q);
+  const Time time = time_with_slopes(ratio, q);
   return {time.u, time.by_log_ratio};
+}
+
+double time_from_end(double ratio, double q) {
+  const double below = 1.0 - ratio * q, x = ratio * (1.0 - q) / below;
+  return std::sqrt((1.0 - ratio) / below) * boost::math::ellint_rf(x, ratio, 1.0, Plain());
 }
 
 FreeEnd free_end(double u, double q) {
@@ -40,7 +45,7 @@ FreeEnd free_end(double u, double q) {
   double log_ratio = std::log(std::min(straight / (quarter * quarter), 0.5 * (1.0 + straight)));
   Time at{};
   for (int k = 0; k < 40; ++k) {
-    at = time_from_end(std::exp(log_ratio), q);
+    at = time_with_slopes(std::exp(log_ratio), q);
     const double step = (u - at.u) / at.by_log_ratio;
     log_ratio = log_ratio + step < 0.0 ? log_ratio + step : 0.5 * log_ratio;
     if (std::abs(step) < 1e-9) break;  // squared by the last step

@@ -23,6 +23,8 @@ struct Elapsed {
   double u, log_slope;
 };
 Elapsed elapsed(double ratio, double q);
+/// u(ρ, q) alone.
+double time_from_end(double ratio, double q);
 
 /// The free end u decay lengths away. @param u  > 0
 FreeEnd free_end(double u, double q);

@@ -120,6 +120,11 @@ constexpr int samples = 33;
 
 }  // namespace
 
+/// A place on a tail, from its free end: √(T/B) times the distance, and v with sin²(ψ/2) = sin²(ψ_e/2) cosh²v.
+struct TailArc::FromEnd {
+  double u, v;
+};
+
 /// Dense near the joint. With the energy between joint and sample, ∫ cos ψ ds = cos ψ_e d − E/T, since the Hamiltonian is
 /// constant; ∫ sin ψ ds is the fall of the moment over T.
 TailArc::Place TailArc::place(const State& s, double length, int sample) const {
@@ -190,6 +195,54 @@ ArcSamples TailArc::sample(const ArcPoint& at) const {
   const Eigen::VectorXd start = out.displacement.col(0);
   out.displacement.colwise() -= start;
   for (int i = 0; i < samples; ++i) out.nodes.push_back(i);
+  return out;
+}
+
+double TailArc::decay_length(const ArcPoint& at) const {
+  return std::sqrt(stiffness_ / Eigen::Map<const Eigen::VectorXd>(at.n, dimension_).norm());
+}
+
+/// sin²(ψ/2) at a distance from the joint, (ρ q) cosh²v with dv/du = cos(ψ/2), u counted from the end; v by Newton's method.
+/// @param near  u and v of a place nearer to the joint; left as those of this one
+double TailArc::half_sine_squared(const State& s, double length, double distance, FromEnd& near) const {
+  const double rho = s.end.ratio;
+  if (rho <= 0.0) {
+    const double e = std::tan(0.25 * std::abs(s.psi)) * std::exp(-s.rate * distance), wide = 1.0 + e * e;
+    return 4.0 * e * e / (wide * wide);
+  }
+  const double goal = s.rate * (length - distance);
+  if (!(goal > 0.0)) return s.q * rho;
+  const auto q_at = [&](double v) { return std::min(s.q, s.q * rho * std::pow(std::cosh(v), 2)); };
+  double v = std::max(0.5 * near.v, near.v + (goal - near.u) * std::sqrt(1.0 - q_at(near.v)));
+  for (int k = 0; k < 20; ++k) {
+    const double q = q_at(v);
+    const double step = (goal - time_from_end(std::pow(std::cosh(v), -2), q)) * std::sqrt(1.0 - q);
+    v = std::max(0.5 * v, v + step);
+    if (std::abs(step) < 1e-7 * (1.0 + v)) break;  // squared by the last step
+  }
+  near = {goal, v};
+  return s.q * rho * std::pow(std::cosh(v), 2);
+}
+
+Eigen::MatrixXd TailArc::configurations(const ArcPoint& at, const Eigen::VectorXd& distances) const {
+  const State s = state(at);
+  const double* q0 = starts_here_ ? at.q_a : at.q_b;
+  Eigen::MatrixXd out(ambient(), distances.size());
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();
+  if (dimension_ == 3) {
+    const Eigen::Map<const Eigen::Vector3d> n(at.n);
+    axis = KirchhoffDensity{}.direction(Eigen::Map<const Quaternion>(q0)).cross(n / s.tension);
+    if (axis.norm() > 0.0) axis.normalize();
+  }
+  FromEnd near{s.rate * at.length, s.end.ratio > 0.0 ? std::acosh(1.0 / std::sqrt(s.end.ratio)) : 0.0};
+  for (Eigen::Index k = 0; k < distances.size(); ++k) {
+    const double q = half_sine_squared(s, at.length, distances(k), near);
+    const double psi = 2.0 * std::asin(std::sqrt(q)), start = std::abs(s.psi);
+    if (dimension_ == 2)
+      out(0, k) = q0[0] + std::copysign(psi, s.psi) - s.psi;
+    else
+      out.col(k) = product(rotation(axis, start - psi), Quaternion(Eigen::Map<const Quaternion>(q0)));
+  }
   return out;
 }
 

@@ -73,20 +73,24 @@ Stability analyse(RodProblem& given, const Vector& at_x, const Vector& p, int co
   Stability out;
   out.inertia_index = given.total_index(at_x, p);
   out.sliding = given.sliding_stiffness(at_x, p);
-  const auto meshed = equilibrium::with_meshed_tails(given, at_x, p);
+  for (const chain::Contact& c : given.profile(at_x, p).contacts) out.degenerate |= c.force < zero_force;
+  // A mode's shape is drawn from the chain's own unknowns, so that closed-form tails need some.
+  const auto meshed = modes ? equilibrium::with_meshed_tails(given, at_x, p) : std::nullopt;
   RodProblem& problem = meshed ? *meshed->problem : given;
   const Vector& x = meshed ? meshed->x : at_x;
-  const contact::Loads loads = problem.loads(p);
+  const chain::Chain& chain = problem.factored(x, p);
+  const chain::Linearisation linearised(chain, problem.rod(), x, problem.loads(p));
   std::vector<Mode> all;
   for (const Parity parity : {Parity::even, Parity::odd}) {
     if (parity == Parity::odd && !is_half(problem)) continue;
-    const Spectrum spectrum = solver.lowest(problem.chain().second_variation(x, loads, parity), count);
+    const chain::Variation variation(linearised, parity);
+    const Spectrum spectrum = solver.lowest(variation, count);
     out.index += spectrum.index;
+    out.degenerate |= spectrum.rounded;
     for (Eigen::Index k = 0; k < spectrum.eigenvalues.size(); ++k) {
       Mode mode;
       if (modes)
-        mode = mode_of(problem, x, p, problem.chain().as_increment(spectrum.eigenvectors.col(k), parity),
-                       parity);
+        mode = mode_of(problem, x, p, chain.as_increment(spectrum.eigenvectors.col(k), parity), parity);
       mode.eigenvalue = spectrum.eigenvalues(k);
       all.push_back(std::move(mode));
     }
@@ -95,7 +99,6 @@ Stability analyse(RodProblem& given, const Vector& at_x, const Vector& p, int co
   if (static_cast<int>(all.size()) > std::max(count, out.index)) all.resize(std::max(count, out.index));
   for (const Mode& mode : all) out.eigenvalues.push_back(mode.eigenvalue);
   if (modes) out.modes = std::move(all);
-  for (const chain::Contact& c : problem.profile(x, p).contacts) out.degenerate |= c.force < zero_force;
   equilibrium::multiply(out, given.units());
   return out;
 }

@@ -141,8 +141,9 @@ Outcome let_go(double tension, double amplitude) {
   const VectorXd p = problem.parameters();
   BOOST_TEST_REQUIRE(problem.polish(x, p) >= 0);
   const contact::Loads loads = problem.loads(p);
+  const chain::Linearisation linearised(problem.factored(x, p), problem.rod(), x, loads);
   const auto spectrum =
-      stability::lowest(problem.chain().second_variation(x, loads, contact::Parity::even), 1);
+      stability::SpectrumSolver().lowest(chain::Variation(linearised, contact::Parity::even), 1);
   VectorXd kick = problem.chain().as_increment(spectrum.eigenvectors.col(0), contact::Parity::even);
   kick *= amplitude / std::abs(kick(0));
   const DampedMotion motion(problem.chain(), loads, x);

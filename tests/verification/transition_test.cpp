@@ -41,11 +41,9 @@ double eigenvalue_tension(Started& start, double low, double high) {
     // the residual is.
     start.problem->polish(start.x, start.p);
     BOOST_TEST_REQUIRE(start.problem->residual(start.x, start.p).lpNorm<Eigen::Infinity>() < 1e-8);
-    return solver
-        .lowest(start.problem->chain().second_variation(start.x, start.problem->loads(start.p),
-                                                        contact::Parity::even),
-                1)
-        .eigenvalues(0);
+    const chain::Linearisation linearised(start.problem->factored(start.x, start.p), start.problem->rod(),
+                                          start.x, start.problem->loads(start.p));
+    return solver.lowest(chain::Variation(linearised, contact::Parity::even), 1).eigenvalues(0);
   };
   std::uintmax_t most = 60;
   const auto bracket = boost::math::tools::toms748_solve(lowest, low, high,

@@ -157,6 +157,8 @@ class Chain {
   Eigen::SparseMatrix<double> jacobian(const VectorXd& x, const Loads& loads) const;
 
  private:
+  friend class Linearisation;
+  friend class Variation;
   /// Does the chain start at a symmetry point, so that variations of the other parity are to be counted too?
   bool half() const { return gauges_.half_turn; }
   /// Which unknowns the dense block holds: those of equilibrium, or those of a variation at fixed contact edges.
@@ -199,6 +201,9 @@ class Chain {
   /// The dense block of a variation, interiors condensed with the last factorisation; symmetric.
   MatrixXd condensed_variation(Purpose purpose, const Numbering& numbering, const VectorXd& x,
                                const Loads& loads) const;
+  /// What one arc, condensed, adds to that block at its local unknowns.
+  MatrixXd condensed_share(Purpose purpose, const Local& local, const Arc& arc,
+                           const bvp::EndsMatrix& condensed, int link) const;
   contact::Joint::Location location(const VectorXd& x, int joint) const;
   /// X_b − X_a of a link's ends.
   contact::SmallVector rise(const VectorXd& x, const Placed& placed, int link) const;

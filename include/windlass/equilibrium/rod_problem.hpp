@@ -54,6 +54,8 @@ class RodProblem final : public continuation::Problem {
   std::optional<continuation::Unrestricted> unrestricted(const Vector& x, const Vector& p) override;
   /// Negative directions of the whole rod, both parities. Factors anew unless the last factorisation was made here.
   int total_index(const Vector& x, const Vector& p);
+  /// The chain, its factors those made at this state; they are made anew unless the last ones were made there.
+  const chain::Chain& factored(const Vector& x, const Vector& p);
   int determinant_sign() override { return chain_->determinant_sign(); }
   Vector retract(const Vector& x, const Vector& dx) const override { return chain_->retract(x, dx); }
   Vector parameter_derivative(const Vector& x, const Vector& p, Eigen::Index k) override;

@@ -64,11 +64,20 @@ class TailArc final : public bvp::Arc {
   }
   Eigen::VectorXd transfer(const bvp::ArcPoint&, const bvp::Arc&) const override { return {}; }
 
+  /// Configurations at distances from the joint, ascending from zero [ρ]; ambient × N. For a mesh in the formula's place.
+  Eigen::MatrixXd configurations(const bvp::ArcPoint& at, const Eigen::VectorXd& distances) const;
+  /// √(B/T): what a tail that is almost straight decays over [ρ].
+  double decay_length(const bvp::ArcPoint& at) const;
+  bool starts_at_joint() const { return starts_here_; }
+  bool infinite() const { return end_ == End::infinite; }
+
  private:
   struct State;
   struct Place;
+  struct FromEnd;
   State state(const bvp::ArcPoint& at) const;
   Place place(const State& state, double length, int sample) const;
+  double half_sine_squared(const State& state, double length, double distance, FromEnd& near) const;
   bvp::EndsMatrix ends_hessian(const bvp::ArcPoint& at) const;
 
   int dimension_;

@@ -8,7 +8,8 @@ namespace windlass::stability {
 
 /// Index, lowest eigenvalues and modes of one equilibrium, both parities of a half chain taken together.
 ///
-/// `index` comes from SLEPc, `inertia_index` from the chain's own factorisation. Eigenvalues are those of the second
+/// `index` comes from SLEPc's eigenvalues, `inertia_index` from the chain's own factorisation; `degenerate`: a contact
+/// carries nothing, or an eigenvalue is zero to rounding. Eigenvalues are those of the second
 /// variation against ∫ |δ(rotation)|² ds of the whole rod [EI/ρ²].
 ///
 /// @param count  eigenvalues wanted, >= 1

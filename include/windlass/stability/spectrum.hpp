@@ -3,54 +3,50 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "windlass/chain/chain.hpp"
+#include "windlass/chain/variation.hpp"
 
 /// Lowest eigenvalues of the second variation, through SLEPc, with the index confirmed by inertia.
 namespace windlass::stability {
 
 /// Finite eigenpairs K v = μ M v of a second variation, K indefinite (multipliers), M positive semidefinite.
 struct Spectrum {
-  Eigen::VectorXd eigenvalues;   ///< μ ascending; at least the asked number, or all there are [EI/ρ²]
-  Eigen::MatrixXd eigenvectors;  ///< one column each, vᵀMv = 1, largest entry positive; size of K × count
-  int index = 0;                 ///< negative eigenvalues found; zero to rounding counts as positive
-  int inertia_index = 0;         ///< the same from the inertia of K: its negative pivots less `constraints`
-  double residual = 0.0;         ///< max ‖K v − μ M v‖∞ / ‖K‖∞‖v‖∞ over the pairs
+  Eigen::VectorXd eigenvalues;  ///< μ ascending; at least the asked number, or all there are [EI/ρ²]
+  Eigen::VectorXd rounding;     ///< what rounding may have made of each [EI/ρ²]
+  Eigen::MatrixXd
+      eigenvectors;       ///< one column each, vᵀMv = 1, largest entry positive; Variation::size() × count
+  int index = 0;          ///< negative eigenvalues found; zero to rounding counts as positive
+  int inertia_index = 0;  ///< the same from the inertia of K's factors
+  bool rounded =
+      false;  ///< one is zero to rounding, not by symmetry: its sign, and so the index, means nothing
   bool agrees() const { return index == inertia_index; }
 };
 
-class SparseSpectrum;
+class KrylovSpectra;
 
-/// Krylov-Schur with shift-and-invert at zero shift: K⁻¹M v = v/μ, K = LDLᵀ by MUMPS.
+/// Krylov-Schur on Wᵀ K⁻¹ W y = y/μ, K⁻¹ by the chain's own factors (chain::Variation): shift-and-invert at zero shift, as
+/// an ordinary symmetric problem in a shell matrix.
 ///
-/// Sylvester's law gives the number of negative μ from the same factorisation, K's negative pivots less the
-/// `constraints` that multipliers and touch locations own. Pairs come in order of |μ|, so as many are asked for as
-/// are wanted plus the negative ones, and more until every negative one is there. Where K is singular to rounding
-/// (at a bifurcation) the shift moves slightly below zero, and the inertia counts the μ below it.
+/// Sylvester's law says how many μ are negative. The one nearest to zero comes first; then the negative ones, which are the
+/// least 1/μ; then what else was asked for. Found ones are projected out of the next search, which starts from another
+/// vector: so all copies of a multiple μ are found, and at a bifurcation the huge 1/μ does not hide the others in its
+/// rounding. The value returned is the quotient vᵀKv/vᵀMv of the uncondensed K.
 ///
-/// Small problems (up to `dense_limit` unknowns) use a dense solver: with M = W Wᵀ of full column rank,
-/// Wᵀ K⁻¹ W y = y/μ is an ordinary symmetric problem and v = μ K⁻¹ W y.
-///
-/// Reusable along a branch: SLEPc's objects are kept, sizes and patterns may change. SLEPc's options apply, without
-/// prefix (-eps_tol, -eps_monitor, -st_ksp_view ...).
+/// Reusable along a branch: SLEPc's objects are kept while the number of points is the same. SLEPc's options apply, without
+/// prefix (-eps_tol, -eps_monitor ...).
 class SpectrumSolver {
  public:
-  static constexpr int dense_limit = 24;
-
   SpectrumSolver();
   ~SpectrumSolver();
   SpectrumSolver(SpectrumSolver&&) noexcept;
   SpectrumSolver& operator=(SpectrumSolver&&) noexcept;
 
   /// @param count  how many of the lowest eigenvalues are wanted, >= 1; all negative ones are returned in any case
-  /// @throws std::invalid_argument if count < 1 or the matrices do not fit each other; petsc::Error if MUMPS or
-  ///         SLEPc fails; std::runtime_error if the eigenvalues asked for did not converge
-  Spectrum lowest(const chain::Chain::SecondVariation& variation, int count);
+  /// @throws std::invalid_argument if count < 1; petsc::Error if SLEPc fails; std::runtime_error if the eigenvalues asked
+  ///         for did not converge
+  Spectrum lowest(const chain::Variation& variation, int count);
 
  private:
-  std::unique_ptr<SparseSpectrum> sparse_;
+  std::unique_ptr<KrylovSpectra> solvers_;
 };
-
-/// One spectrum, with a solver of its own. Parameters and errors as SpectrumSolver::lowest.
-Spectrum lowest(const chain::Chain::SecondVariation& variation, int count);
 
 }  // namespace windlass::stability

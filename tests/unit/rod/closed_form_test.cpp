@@ -181,4 +181,24 @@ BOOST_AUTO_TEST_CASE(a_long_free_tail_is_the_infinite_one) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(configurations_lie_on_the_samples_curve) {
+  const Eigen::Vector3d n(0.8, -0.4, 0.3);
+  const double length = 6.0, theta[1] = {1.4};
+  const Quaternion q = product(rotation(Eigen::Vector3d(0.2, 0.9, -0.4).normalized(), 1.1), frame(0.5));
+  for (const int dimension : {2, 3})
+    for (const bool starts_here : {true, false})
+      for (const auto end : {TailArc::End::infinite, TailArc::End::moment_free}) {
+        const TailArc tail(dimension, 1.3, starts_here, end);
+        const double* from = dimension == 2 ? theta : q.data();
+        const ArcPoint at{from, from, nullptr, n.data(), length};
+        const windlass::bvp::ArcSamples samples = tail.sample(at);
+        Eigen::VectorXd distances = length * samples.sigma;
+        if (!starts_here) distances = (length - distances.array()).reverse().eval();
+        const Eigen::MatrixXd found = tail.configurations(at, distances);
+        const Eigen::MatrixXd ordered = starts_here ? found : Eigen::MatrixXd(found.rowwise().reverse());
+        // Distances from σ lose eps of the length; the place is found by Newton's method to the rounding of u.
+        BOOST_TEST((ordered - samples.q).cwiseAbs().maxCoeff() < 1e-12);
+      }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,220 @@
+#include "windlass/chain/variation.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "neutral_turn.hpp"
+#include "symmetric_factors.hpp"
+
+namespace windlass::chain {
+
+using contact::Parity;
+
+Variation::Variation(const Linearisation& at, Parity parity) : at_(at) {
+  using Purpose = Chain::Purpose;
+  const Chain& chain = at.chain_;
+  const Purpose purpose = parity == Parity::odd && chain.half() ? Purpose::odd : Purpose::even;
+  const Chain::Numbering numbering = chain.number(purpose);
+  size_ = chain.size_ - chain.dense_size_ + numbering.size;
+  for (Eigen::Index k = 0; k < numbering.size; ++k) dense_.push_back(k);
+  for (int i = 0; i < chain.link_count(); ++i) place(purpose, numbering, i);
+  const auto count = static_cast<Eigen::Index>(dense_.size());
+  joints_ = MatrixXd::Zero(count, count);
+  joints_.topLeftCorner(numbering.size, numbering.size) =
+      chain.variation_matrix(purpose, numbering, at.x_, at.loads_);
+  MatrixXd dense = joints_;
+  for (int i = 0; i < chain.link_count(); ++i) {
+    const Place& here = places_[i];
+    const auto& dofs = here.local.dofs;
+    const MatrixXd share =
+        chain.condensed_share(purpose, here.local, *here.part->arc, here.part->condensed, i);
+    for (std::size_t r = 0; r < dofs.size(); ++r)
+      for (std::size_t s = 0; s < dofs.size(); ++s) dense(dofs[r], dofs[s]) += share(r, s);
+    negative_ += here.part->arc->negative_pivots();
+  }
+  phase_ = numbering.phase;
+  if (phase_ >= 0) hold_phase(purpose, numbering, dense);
+  dense = (0.5 * (dense + dense.transpose())).eval();
+  neutral_ = chain.neutral_turn_ && (!chain.half() || *chain.neutral_turn_ == parity);
+  factors_ = std::make_shared<const SymmetricFactors>(dense);
+  negative_ += chain.neutral_turn_ ? negative_but_turn(dense, numbering.location) : factors_->negative();
+  negative_ -= numbering.constraints;
+}
+
+void Variation::place(Chain::Purpose purpose, const Chain::Numbering& numbering, int link) {
+  const Chain& chain = at_.chain_;
+  const Linearisation::Part& part = at_.parts_[link];
+  Place here{&part, chain.local(purpose, numbering, at_.x_, at_.loads_, link), {}, 0, points_};
+  const Arc& arc = *part.arc;
+  const Eigen::Index d = arc.tangent();
+  if (part.tail) {  // its free end turns too
+    const Eigen::Index known = here.local.columns.cols(), row = part.joint_first ? d : 0;
+    here.local.columns.conservativeResize(Eigen::NoChange, known + d);
+    here.local.columns.rightCols(d).setZero();
+    here.local.columns.block(row, known, d, d).setIdentity();
+    for (Eigen::Index c = 0; c < d; ++c) {
+      here.local.dofs.push_back(static_cast<Eigen::Index>(dense_.size()));
+      dense_.push_back(size_++);
+    }
+    here.interior = size_;
+    size_ += arc.interior_tangent();
+  } else {
+    here.interior = chain.interior_row_[link] - chain.dense_size_ + numbering.size;
+  }
+  for (const Eigen::Index dof : here.local.dofs) here.at.push_back(dense_[dof]);
+  if (part.slope.size() > 0) here.left = numbering.location[link], here.right = numbering.location[link + 1];
+  points_ += part.root.size();
+  places_.push_back(std::move(here));
+}
+
+/// K + τ M g gᵀ M, g the phase's motion of unit size: moves it out of the way and, as K g = 0, leaves all other eigenvectors
+/// as they are. Written with one more unknown. A straight rod has no such motion.
+void Variation::hold_phase(Chain::Purpose purpose, const Chain::Numbering& numbering, MatrixXd& dense) {
+  constexpr double straight = 1e-6;  // [rad √length]
+  motion_ = at_.chain_.phase_motion(purpose, numbering, at_.x_, at_.loads_);
+  const VectorXd turned = rotations(motion_);
+  const double size = turned.norm();
+  motion_ = size > straight ? VectorXd(loads(turned) * (std::sqrt(at_.stiffest_) / size))
+                            : VectorXd(VectorXd::Zero(size_));
+  motion_(phase_) = 0.0;
+  for (std::size_t k = 0; k < dense_.size(); ++k) {
+    dense(static_cast<Eigen::Index>(k), phase_) += motion_(dense_[k]);
+    dense(phase_, static_cast<Eigen::Index>(k)) += motion_(dense_[k]);
+  }
+  reduced_ = condensed_ = motion_;
+  bvp::EndsVector ends;
+  for (const Place& here : places_) {
+    const Arc& arc = *here.part->arc;
+    if (arc.interior_nodes() == 0) continue;
+    ends.setZero(arc.ends());
+    arc.reduce(reduced_.data() + here.interior, ends);
+    const VectorXd column = here.local.columns.transpose() * ends;
+    for (Eigen::Index r = 0; r < column.size(); ++r) {
+      dense(here.local.dofs[r], phase_) += column(r);
+      dense(phase_, here.local.dofs[r]) += column(r);
+    }
+    auto solved = condensed_.segment(here.interior, arc.interior_tangent());
+    solved = reduced_.segment(here.interior, arc.interior_tangent());
+    arc.expand(solved.data(), bvp::EndsVector::Zero(arc.ends()));
+    dense(phase_, phase_) -= motion_.segment(here.interior, arc.interior_tangent()).dot(solved);
+  }
+}
+
+VectorXd Variation::gathered(const Place& here, const VectorXd& v) const {
+  VectorXd out(here.at.size());
+  for (Eigen::Index r = 0; r < out.size(); ++r) out(r) = v(here.at[r]);
+  return out;
+}
+
+VectorXd Variation::rotations(const VectorXd& v) const {
+  VectorXd out(points_);
+  for (const Place& here : places_) {
+    const Linearisation::Part& part = *here.part;
+    const Eigen::Index inner = part.arc->interior_tangent(), ends = part.root.size() - inner;
+    auto turned = out.segment(here.first, part.root.size());
+    turned.head(inner) = v.segment(here.interior, inner);
+    turned.tail(ends).noalias() = here.local.columns.topRows(ends) * gathered(here, v);
+    if (here.left >= 0) turned -= v(here.left) * part.slope.col(0);
+    if (here.right >= 0) turned -= v(here.right) * part.slope.col(1);
+    turned.array() *= part.root.array();
+  }
+  return out;
+}
+
+VectorXd Variation::loads(const Eigen::Ref<const VectorXd>& y) const {
+  VectorXd out = VectorXd::Zero(size_), weighed, share;
+  for (const Place& here : places_) {
+    const Linearisation::Part& part = *here.part;
+    const Eigen::Index inner = part.arc->interior_tangent(), ends = part.root.size() - inner;
+    weighed = y.segment(here.first, part.root.size()).cwiseProduct(part.root);
+    out.segment(here.interior, inner) = weighed.head(inner);
+    share = here.local.columns.topRows(ends).transpose() * weighed.tail(ends);
+    for (Eigen::Index r = 0; r < share.size(); ++r) out(here.at[r]) += share(r);
+    if (here.left >= 0) out(here.left) -= part.slope.col(0).dot(weighed);
+    if (here.right >= 0) out(here.right) -= part.slope.col(1).dot(weighed);
+  }
+  return out;
+}
+
+VectorXd Variation::solve(VectorXd f) const {
+  const auto count = static_cast<Eigen::Index>(dense_.size());
+  bvp::EndsVector ends;
+  VectorXd share, y(count);
+  double along = 0.0;  // of the phase's motion
+  for (const Place& here : places_) {
+    const Arc& arc = *here.part->arc;
+    if (arc.interior_nodes() == 0) continue;
+    auto inside = f.segment(here.interior, arc.interior_tangent());
+    if (phase_ >= 0) along += condensed_.segment(here.interior, arc.interior_tangent()).dot(inside);
+    ends.setZero(arc.ends());
+    arc.reduce(inside.data(), ends);
+    share.noalias() = here.local.columns.transpose() * ends;
+    for (Eigen::Index r = 0; r < share.size(); ++r) f(here.at[r]) += share(r);
+  }
+  for (Eigen::Index k = 0; k < count; ++k) y(k) = f(dense_[k]);
+  if (phase_ >= 0) y(phase_) -= along;
+  factors_->solve(y);
+  for (Eigen::Index k = 0; k < count; ++k) f(dense_[k]) = y(k);
+  for (const Place& here : places_) {
+    const Arc& arc = *here.part->arc;
+    if (arc.interior_nodes() == 0) continue;
+    auto inside = f.segment(here.interior, arc.interior_tangent());
+    if (phase_ >= 0) inside -= y(phase_) * reduced_.segment(here.interior, arc.interior_tangent());
+    share.resize(here.local.dofs.size());
+    for (Eigen::Index r = 0; r < share.size(); ++r) share(r) = y(here.local.dofs[r]);
+    ends.noalias() = here.local.columns * share;
+    arc.expand(inside.data(), ends);
+  }
+  return f;
+}
+
+VectorXd Variation::product(const VectorXd& v) const {
+  VectorXd out = VectorXd::Zero(size_), w, image, y(dense_.size());
+  for (const Place& here : places_) {
+    const Linearisation::Part& part = *here.part;
+    const Eigen::Index inner = part.arc->interior_tangent(), ends = here.local.columns.rows();
+    w.resize(inner + ends);
+    w.head(inner) = v.segment(here.interior, inner);
+    w.tail(ends) = here.local.columns * gathered(here, v);
+    image.setZero(inner + ends);
+    for (const auto& entry : part.hessian) image(entry.row()) += entry.value() * w(entry.col());
+    out.segment(here.interior, inner) += image.head(inner);
+    const VectorXd share = here.local.columns.transpose() * image.tail(ends);
+    for (Eigen::Index r = 0; r < share.size(); ++r) out(here.at[r]) += share(r);
+  }
+  for (Eigen::Index k = 0; k < y.size(); ++k) y(k) = v(dense_[k]);
+  const VectorXd joints = 0.5 * (joints_ * y + joints_.transpose() * y);
+  for (Eigen::Index k = 0; k < y.size(); ++k) out(dense_[k]) += joints(k);
+  if (phase_ >= 0) {
+    out += v(phase_) * motion_;
+    out(phase_) += motion_.dot(v);
+  }
+  return out;
+}
+
+Variation::Quotient Variation::quotient(const VectorXd& v) const {
+  double value = 0.0, sizes = 0.0;
+  const auto add = [&](double term) {
+    value += term;
+    sizes += std::abs(term);
+  };
+  VectorXd w;
+  for (const Place& here : places_) {
+    const Linearisation::Part& part = *here.part;
+    const Eigen::Index inner = part.arc->interior_tangent();
+    w.resize(inner + here.local.columns.rows());
+    w.head(inner) = v.segment(here.interior, inner);
+    w.tail(here.local.columns.rows()) = here.local.columns * gathered(here, v);
+    for (const auto& entry : part.hessian) add(entry.value() * w(entry.row()) * w(entry.col()));
+  }
+  VectorXd y(dense_.size());
+  for (Eigen::Index k = 0; k < y.size(); ++k) y(k) = v(dense_[k]);
+  for (Eigen::Index c = 0; c < y.size(); ++c)
+    for (Eigen::Index r = 0; r < y.size(); ++r)
+      if (joints_(r, c) != 0.0) add(y(r) * joints_(r, c) * y(c));
+  if (phase_ >= 0) add(2.0 * v(phase_) * motion_.dot(v));
+  const double size = rotations(v).squaredNorm();
+  return {value / size, std::numeric_limits<double>::epsilon() * sizes / size};
+}
+
+}  // namespace windlass::chain
