@@ -2,6 +2,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "algebraic_problem.hpp"
 #include "continuation/dense_problem.hpp"
 #include "continuation/sparse_problem.hpp"
 #include "walk.hpp"
@@ -10,10 +11,6 @@ namespace {
 
 using namespace continuation;
 using namespace continuation::testing;
-
-Vector vector(std::initializer_list<double> values) {
-  return Eigen::Map<const Vector>(values.begin(), static_cast<Eigen::Index>(values.size()));
-}
 
 BOOST_AUTO_TEST_SUITE(adaptors)
 
