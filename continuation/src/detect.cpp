@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace continuation {
 namespace {
@@ -119,114 +118,6 @@ std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, co
     if (below->events.empty()) segment.add_events(*below);
     top = below;
   }
-  return found;
-}
-
-namespace {
-
-// Multiplicity of the branch points between two samples, net of one fold where the tangent turns; 0: none
-// seen.
-int branch_points_between(const Sample& lo, const Sample& hi) {
-  if (lo.index >= 0 && hi.index >= 0) {
-    const int change = std::abs(hi.index - lo.index);
-    if (is_vertical(lo, hi)) return std::max(change - 1, 0);  // the branch's own direction is neutral
-    if (lo.tangent.p * hi.tangent.p >= 0.0) return change;
-    // A fold changes the index by one; unchanged across a turn, the side branch of a pitchfork goes through
-    // it.
-    return change == 1 ? 0 : std::max(change, 1);
-  }
-  return lo.determinant * hi.determinant < 0 ? 1 : 0;
-}
-
-void search(Segment& segment, const Sample& lo, const Sample& hi, int depth, std::vector<Located>& found) {
-  const int multiplicity = branch_points_between(lo, hi);
-  if (multiplicity == 0) return;
-  std::string why;
-  // The reduced equations cost about five factorisations, a halving two: they are tried early, then now and
-  // then.
-  const bool attempt = depth == 0 || depth == 2 || depth % 4 == 0;
-  if (attempt) {
-    std::optional<BranchPoint> point = polish_branch_point(segment, lo, hi, multiplicity, why);
-    if (point) {
-      const Eigen::Index parameter = segment.options().parameter;
-      Located located;
-      located.type = PointType::branch_point;
-      located.lo = lo.s;
-      located.hi = hi.s;
-      const double ds = segment.path_length(point->u, point->p[parameter] - lo.it.p[parameter]);
-      const double part = ds / (hi.s - lo.s);
-      constexpr double same = 1e-5;  // the state is free along the null vector, to within its curvature
-      const bool again = std::any_of(found.begin(), found.end(), [&](const Located& other) {
-        return other.branch_point &&
-               (other.branch_point->x - point->x).norm() <= same * (1.0 + point->x.norm()) &&
-               std::abs(other.branch_point->p[parameter] - point->p[parameter]) <= 1e3 * tolerance(segment);
-      });
-      // A little slack only: of two points close together each bracket must yield its own. Where p is monotonic it says
-      // better than the chord whether the point is inside.
-      const double slack = 0.01 + 1e-7 / (hi.s - lo.s);
-      const double p_lo = lo.it.p[parameter], p_hi = hi.it.p[parameter], p_here = point->p[parameter];
-      const bool monotonic = lo.tangent.p * hi.tangent.p > 0.0;
-      const double margin = 1e-4 * std::abs(p_hi - p_lo) + 1e-7;
-      const bool inside =
-          !monotonic || (p_here > std::min(p_lo, p_hi) - margin && p_here < std::max(p_lo, p_hi) + margin);
-      if (part > -slack && part < 1.0 + slack && inside && !again) {
-        located.s = lo.s + std::clamp(part, 0.0, 1.0) * (hi.s - lo.s);
-        located.precision = point->precision;
-        located.index = lo.index;
-        located.index_after = hi.index;
-        located.multiplicity = multiplicity;
-        located.sample.it.x = point->x;
-        located.sample.it.p = point->p;
-        located.sample.tangent = lo.tangent;
-        if (!point->tangents.empty()) {
-          Tangent along = point->tangents[0];
-          if (inner(*segment.problem(), along, lo.tangent, segment.options().parameter_scale) < 0.0) {
-            along.x = -along.x;
-            along.p = -along.p;
-          }
-          located.sample.tangent = std::move(along);
-        }
-        located.branch_point = std::move(point);
-        found.push_back(std::move(located));
-        return;
-      }
-      why = "the branch point equations lead out of the bracket";
-    }
-  }
-  const Sample* middle = nullptr;
-  if (hi.s - lo.s > tolerance(segment) && depth < 60) {
-    for (const double part : {0.5, 0.35, 0.65}) {  // right on the branch point the solve may fail
-      middle = segment.at(lo.s + part * (hi.s - lo.s), true);
-      if (middle) break;
-    }
-  }
-  if (!middle) return found.push_back(unpolished(segment, lo, hi, multiplicity, why));
-  // Where halving makes the change vanish, the count at one end was roundoff close to an eigenvalue's touch.
-  search(segment, lo, *middle, depth + 1, found);
-  search(segment, *middle, hi, depth + 1, found);
-}
-
-}  // namespace
-
-Located unpolished(Segment& segment, const Sample& lo, const Sample& hi, int multiplicity,
-                   const std::string& why) {
-  Located located;
-  located.type = PointType::branch_point;
-  located.s = 0.5 * (lo.s + hi.s);
-  located.lo = lo.s;
-  located.hi = hi.s;
-  located.sample = lo;
-  located.precision = std::abs(segment.parameter(hi) - segment.parameter(lo));
-  located.index = lo.index;
-  located.index_after = hi.index;
-  located.multiplicity = multiplicity;
-  located.note = "not polished: " + (why.empty() ? segment.failure() : why);
-  return located;
-}
-
-std::vector<Located> locate_branch_points(Segment& segment, const Sample& lo, const Sample& hi) {
-  std::vector<Located> found;
-  search(segment, lo, hi, 0, found);
   return found;
 }
 

@@ -1,5 +1,6 @@
 #include "continuation/segment.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <stdexcept>
@@ -129,6 +130,22 @@ void Segment::complete(Sample& sample) {
   sample.breaking_index =
       options_.detect_branch_points ? problem.breaking_index(sample.it.x, sample.it.p) : -1;
   sample.complete = true;
+}
+
+const Sample* Segment::complete_beside(double s, double beyond, int side) const {
+  const Sample* nearest = nullptr;
+  for (const Sample& sample : samples_) {
+    const double distance = side * (sample.s - s);
+    if (!sample.complete || distance < beyond) continue;
+    if (!nearest || distance < side * (nearest->s - s)) nearest = &sample;
+  }
+  return nearest;
+}
+
+double Segment::reach() const {
+  double reach = 0.0;
+  for (const Sample& sample : samples_) reach = std::max(reach, std::abs(sample.s));
+  return reach;
 }
 
 void Segment::add_events(Sample& sample) { sample.events = problem_->events(sample.it.x, sample.it.p); }

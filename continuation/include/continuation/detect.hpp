@@ -43,9 +43,25 @@ using EventSigns = std::map<std::string, int>;
 /// @return nullopt when no event changes sign. `note` is not empty if the bracket did not converge.
 std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, const EventSigns& signs);
 
-/// All branch points between two completed samples: the interval is halved on the change of the index
-/// (corrected for folds, det [J F_p; t] where the index is unknown) until the reduced equations find the
-/// point in it.
+/// What the index says of a step.
+struct Crossings {
+  std::vector<Located> points;  ///< branch points, not sorted
+  bool fold = false;            ///< the turn of the parameter is a fold
+  std::string refusal;          ///< the index changes where no branch point is: the step has left its branch
+};
+
+/// Branch points, and the nature of a turn, between two completed samples.
+///
+/// An interval over which the index changes (det J where it is unknown) is halved until the reduced equations find the
+/// point in it. A turn of the parameter is a fold if the index changes by an odd number across it.
+///
+/// @param turn  where dp/ds vanishes, or null
+/// @param edge  path length of an event: the index close to it may change for reasons of its own
+/// @param may_refuse  the step is long: an index that changes without a branch point is a jump to another branch
+Crossings locate_crossings(Segment& segment, const Sample& lo, const Sample& hi, const Located* turn,
+                           double edge, bool may_refuse);
+
+/// All branch points between two completed samples between which the parameter does not turn.
 std::vector<Located> locate_branch_points(Segment& segment, const Sample& lo, const Sample& hi);
 
 /// A branch point that is known by its bracket only; why: what kept it from being located, empty: the segment's failure.

@@ -54,7 +54,14 @@ class Segment {
   /// Adds the event values.
   void add_events(Sample& sample);
 
+  /// The completed sample nearest to s on one side (±1), at least `beyond` away; null if there is none.
+  const Sample* complete_beside(double s, double beyond, int side) const;
+
+  /// Path length of the farthest sample.
+  double reach() const;
+
   Sample& base() { return samples_.front(); }
+  const Sample& base() const { return samples_.front(); }
   const Tangent& tangent() const { return tangent_; }
   /// Path length along the base's tangent of an increment (u, dp).
   double path_length(const Vector& u, double dp) const {

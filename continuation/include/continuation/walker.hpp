@@ -15,9 +15,10 @@ namespace continuation {
 /// Walks one branch by pseudo-arclength continuation, a point a call.
 ///
 /// A step predicts along the unit tangent, corrects with Keller's constraint, then looks between the two
-/// points for folds (dp/ds changes sign), events (an event function changes sign) and branch points (the
-/// index changes, folds accounted for), and yields what it found in the order of the branch. A failed step
-/// leaves the state untouched and halves ds.
+/// points for folds (dp/ds changes sign and the index by an odd number), events (an event function changes
+/// sign) and branch points (the index changes), and yields what it found in the order of the branch. A failed
+/// step leaves the state untouched and halves ds; so does one that has left its branch, which shows in a
+/// corrector that leads away from the tangents, or in an index that changes where no branch point is.
 ///
 /// ```
 /// Walker walker(problem, x, p, options);
@@ -60,7 +61,16 @@ class Walker {
  private:
   void start();
   void advance();
+  // walker_step.cpp
   bool advance_once(std::string& failure);
+  bool leaves_branch(const Segment& segment, const Sample& end, std::string& failure) const;
+  bool long_step(double ds) const;
+  bool find_specials(Segment& segment, const Sample& end, const Located* turn, bool at_event,
+                     std::vector<Located>& specials, std::string& failure);
+  void accept(Segment& segment, Sample& end, const CorrectorReport& report, const End& reason);
+  // walker_stops.cpp
+  bool shorten(Segment& segment, Sample*& end, Located* turn, End& reason, std::optional<Located>& event,
+               std::string& failure);
   bool limit(Segment& segment, Sample*& end, Located* fold, End& reason);
   Sample* close(Segment& segment, Sample& end, Located* fold);
   void remember_start();

@@ -1,0 +1,200 @@
+// What a change of the index between two points of a step means.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "continuation/detect.hpp"
+
+namespace continuation {
+namespace {
+
+/// Eigenvalues that went through zero between two samples, net; −1: unknown.
+int zeros_between(const Sample& lo, const Sample& hi) {
+  if (lo.index >= 0 && hi.index >= 0) return std::abs(hi.index - lo.index);
+  if (lo.determinant == 0 || hi.determinant == 0) return -1;
+  // det J has the sign of det [J F_p; t] times that of dp/ds.
+  const double a = lo.determinant * lo.tangent.p, b = hi.determinant * hi.tangent.p;
+  return (a < 0.0) != (b < 0.0) ? 1 : 0;
+}
+
+bool turns(const Sample& lo, const Sample& hi) { return lo.tangent.p * hi.tangent.p < 0.0; }
+
+/// A little apart, in path length: a turn and a branch point closer than that are the same.
+double together(const Segment& segment) {
+  constexpr double part = 1e-4, rounding = 1e-7;
+  return part * segment.reach() + rounding;
+}
+
+class Search {
+ public:
+  Search(Segment& segment, double edge, bool may_refuse)
+      : segment_(segment),
+        options_(segment.options()),
+        tolerance_(options_.location_tolerance * std::max(1.0, std::abs(segment.parameter(segment.base())))),
+        edge_(edge),
+        may_refuse_(may_refuse) {}
+
+  /// @param depth  halvings since the interval held `shared` points
+  void branch_points(const Sample& lo, const Sample& hi, int depth = 0, int shared = 0) {
+    const int multiplicity = multiplicity_between(lo, hi);
+    if (multiplicity <= 0 || !found.refusal.empty()) return;
+    if (multiplicity != shared) depth = 0;
+    // The reduced equations cost about five factorisations, a halving two: they are tried early, then now and then.
+    std::string why;
+    if (depth == 0 || depth == 2 || depth % 4 == 0) {
+      if (std::optional<Located> point = polished(lo, hi, multiplicity, why)) {
+        found.points.push_back(std::move(*point));
+        return;
+      }
+    }
+    // One branch point is found early or not at all; of several each must be shut in by itself first.
+    const int patience = multiplicity == 1 ? 4 : 16;
+    const bool refuse = may_refuse_ && hi.s < edge_;
+    const Sample* middle = refuse && depth >= patience ? nullptr : halfway(lo, hi, depth);
+    if (!middle && refuse) {
+      found.refusal =
+          "the index changes and no branch point is there: " + (why.empty() ? segment_.failure() : why);
+      return;
+    }
+    if (!middle) return found.points.push_back(unpolished(segment_, lo, hi, multiplicity, why));
+    // Where halving makes the change vanish, the count at one end was roundoff close to an eigenvalue's touch.
+    branch_points(lo, *middle, depth + 1, multiplicity);
+    branch_points(*middle, hi, depth + 1, multiplicity);
+  }
+
+  /// Is the turn at s a fold, given what was found between samples on its two sides? An odd number of eigenvalues goes
+  /// through zero there; on the side branch of a pitchfork, which turns at its branch point, an even one.
+  bool fold(const Sample& lo, const Sample& hi, double s) {
+    const int zeros = zeros_between(lo, hi);
+    if (zeros < 0 || zeros % 2 == 1) return true;
+    for (const Located& point : found.points) {
+      if (point.type != PointType::branch_point || point.s < lo.s || point.s > hi.s) continue;
+      if (std::abs(point.s - s) < together(segment_)) return false;
+      // Apart from each other the two enclose an interval where the index has the other parity.
+      const Sample* middle = segment_.at(0.5 * (point.s + s), true);
+      return middle && zeros_between(*middle, point.s < s ? hi : lo) % 2 == 1;
+    }
+    return false;
+  }
+
+  Crossings found;
+
+ private:
+  int multiplicity_between(const Sample& lo, const Sample& hi) const {
+    const int change = zeros_between(lo, hi);
+    if (change < 0) return 0;
+    if (is_vertical(lo, hi)) return std::max(change - 1, 0);  // the branch's own direction is neutral
+    if (!turns(lo, hi)) return change;
+    // A fold changes the index by one; unchanged across a turn, the side branch of a pitchfork goes through it.
+    return change == 1 ? 0 : std::max(change, 1);
+  }
+
+  const Sample* halfway(const Sample& lo, const Sample& hi, int depth) {
+    if (hi.s - lo.s <= tolerance_ || depth >= 60) return nullptr;
+    for (const double part : {0.5, 0.35, 0.65}) {  // right on the branch point the solve may fail
+      if (const Sample* middle = segment_.at(lo.s + part * (hi.s - lo.s), true)) return middle;
+    }
+    return nullptr;
+  }
+
+  bool known(const BranchPoint& point) const {
+    constexpr double same = 1e-5;  // the state is free along the null vector, to within its curvature
+    const Eigen::Index parameter = options_.parameter;
+    return std::any_of(found.points.begin(), found.points.end(), [&](const Located& other) {
+      return other.branch_point &&
+             (other.branch_point->x - point.x).norm() <= same * (1.0 + point.x.norm()) &&
+             std::abs(other.branch_point->p[parameter] - point.p[parameter]) <= 1e3 * tolerance_;
+    });
+  }
+
+  std::optional<Located> polished(const Sample& lo, const Sample& hi, int multiplicity, std::string& why) {
+    std::optional<BranchPoint> point = polish_branch_point(segment_, lo, hi, multiplicity, why);
+    if (!point) return std::nullopt;
+    const double p_lo = segment_.parameter(lo), p_hi = segment_.parameter(hi),
+                 p = point->p[options_.parameter];
+    const double part = segment_.path_length(point->u, p - p_lo) / (hi.s - lo.s);
+    // A little slack only: of two points close together each bracket must yield its own. Where p is monotonic it says
+    // better than the chord whether the point is inside.
+    const double slack = 0.01 + 1e-7 / (hi.s - lo.s);
+    const double margin = 1e-4 * std::abs(p_hi - p_lo) + 1e-7;
+    const bool inside =
+        turns(lo, hi) || (p > std::min(p_lo, p_hi) - margin && p < std::max(p_lo, p_hi) + margin);
+    if (!(part > -slack && part < 1.0 + slack && inside) || known(*point)) {
+      why = "the branch point equations lead out of the bracket";
+      return std::nullopt;
+    }
+    Located located;
+    located.type = PointType::branch_point;
+    located.lo = lo.s;
+    located.hi = hi.s;
+    located.s = lo.s + std::clamp(part, 0.0, 1.0) * (hi.s - lo.s);
+    located.precision = point->precision;
+    located.index = lo.index;
+    located.index_after = hi.index;
+    located.multiplicity = multiplicity;
+    located.sample.it.x = point->x;
+    located.sample.it.p = point->p;
+    located.sample.tangent = lo.tangent;
+    if (!point->tangents.empty()) {
+      Tangent along = point->tangents[0];
+      if (inner(*segment_.problem(), along, lo.tangent, options_.parameter_scale) < 0.0) {
+        along.x = -along.x;
+        along.p = -along.p;
+      }
+      located.sample.tangent = std::move(along);
+    }
+    located.branch_point = std::move(point);
+    return located;
+  }
+
+  Segment& segment_;
+  const Options& options_;
+  double tolerance_, edge_;
+  bool may_refuse_;
+};
+
+}  // namespace
+
+Located unpolished(Segment& segment, const Sample& lo, const Sample& hi, int multiplicity,
+                   const std::string& why) {
+  Located located;
+  located.type = PointType::branch_point;
+  located.s = 0.5 * (lo.s + hi.s);
+  located.lo = lo.s;
+  located.hi = hi.s;
+  located.sample = lo;
+  located.precision = std::abs(segment.parameter(hi) - segment.parameter(lo));
+  located.index = lo.index;
+  located.index_after = hi.index;
+  located.multiplicity = multiplicity;
+  located.note = "not polished: " + (why.empty() ? segment.failure() : why);
+  return located;
+}
+
+Crossings locate_crossings(Segment& segment, const Sample& lo, const Sample& hi, const Located* turn,
+                           double edge, bool may_refuse) {
+  Search search(segment, edge, may_refuse);
+  if (!turn) {
+    search.branch_points(lo, hi);
+    return std::move(search.found);
+  }
+  // The samples that located the turn enclose it: no more are needed.
+  const double beyond = 10.0 * together(segment);
+  const Sample* before = segment.complete_beside(turn->s, beyond, -1);
+  const Sample* after = segment.complete_beside(turn->s, beyond, 1);
+  const Sample& a = before && before->s > lo.s ? *before : lo;
+  const Sample& b = after && after->s < hi.s ? *after : hi;
+  search.branch_points(lo, a);
+  search.branch_points(a, b);
+  if (search.found.refusal.empty()) search.found.fold = search.fold(a, b, turn->s);
+  search.branch_points(b, hi);
+  return std::move(search.found);
+}
+
+std::vector<Located> locate_branch_points(Segment& segment, const Sample& lo, const Sample& hi) {
+  return locate_crossings(segment, lo, hi, nullptr, std::numeric_limits<double>::infinity(), false).points;
+}
+
+}  // namespace continuation
