@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace continuation {
 namespace {
@@ -52,12 +53,25 @@ Located locate_fold(Segment& segment, const Sample& lo, const Sample& hi) {
   fold.hi = bracket.hi;
   // p is flat at a fold: its error is half the slope at the end times the bracket.
   const double slope = std::max(std::abs(fold.sample.tangent.p), bracket.hi - bracket.lo);
-  fold.precision =
-      std::max(slope * (bracket.hi - bracket.lo), 1e-15 * std::abs(segment.parameter(fold.sample)));
+  fold.precision = slope * (bracket.hi - bracket.lo);
   fold.index = lo.index;
   fold.index_after = hi.index;
   if (!bracket.converged) fold.note = "bracket not converged: " + segment.failure();
   return fold;
+}
+
+bool slope_jumps(const Sample& lo, const Sample& hi, const Located& fold) {
+  // A slope that is continuous is as small as the bracket, or what rounding leaves of it near a branch point.
+  constexpr double jump = 0.01;
+  return std::abs(fold.sample.tangent.p) > jump * std::abs(hi.tangent.p - lo.tangent.p) && fold.note.empty();
+}
+
+void sharpen_fold(Segment& segment, Located& fold) {
+  const Correction left = segment.sharpen(fold.sample);
+  // p is stationary along the branch: there an error of the state counts by its square.
+  const double rounding =
+      4.0 * std::numeric_limits<double>::epsilon() * std::abs(segment.parameter(fold.sample));
+  fold.precision = std::max({fold.precision, left.parameter + left.length * left.length, rounding});
 }
 
 std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, const EventSigns& signs) {

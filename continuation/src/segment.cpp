@@ -132,6 +132,17 @@ void Segment::complete(Sample& sample) {
   sample.complete = true;
 }
 
+Correction Segment::sharpen(Sample& sample) {
+  keller_.g[0] = sample.s;
+  BorderedSystem system(*problem_, keller_, sample.it);
+  const Vector defect = system.defect();
+  system.factor();
+  const Vector delta = system.solve(defect);
+  system.add(delta);
+  sample.report.factored_here = false;
+  return {system.length(delta), std::abs(delta[problem_->size()])};
+}
+
 const Sample* Segment::complete_beside(double s, double beyond, int side) const {
   const Sample* nearest = nullptr;
   for (const Sample& sample : samples_) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "continuation/walker.hpp"
@@ -57,6 +58,8 @@ bool Walker::advance_once(std::string& failure) {
   if ((options_.detect_folds || options_.detect_branch_points) && !is_vertical(base, *end) &&
       state_.tangent.p * end->tangent.p < 0.0)
     turn = locate_fold(segment, base, *end);
+  if (turn && long_step(end->s) && slope_jumps(base, *end, *turn))
+    return failure = "the corrector has left the branch: the parameter's slope jumps", false;
   const CorrectorReport report = end->report;
   End reason;
   std::optional<Located> event;
@@ -107,7 +110,17 @@ bool Walker::find_specials(Segment& segment, const Sample& end, const Located* t
     std::erase_if(found, [&](const Located& l) {
       return std::abs(segment.parameter(l.sample) - p) < 1e-8 * std::max(1.0, std::abs(p));
     });
-  if (turn && crossings.fold && options_.detect_folds) found.push_back(*turn);
+  if (turn && crossings.fold && options_.detect_folds) {
+    Located fold = *turn;
+    try {
+      sharpen_fold(segment, fold);
+    } catch (const std::domain_error& error) {
+      return failure = error.what(), false;
+    } catch (const std::runtime_error& error) {
+      return failure = error.what(), false;
+    }
+    found.push_back(std::move(fold));
+  }
   std::move(found.begin(), found.end(), std::back_inserter(specials));
   std::sort(specials.begin(), specials.end(), [](const Located& a, const Located& b) { return a.s < b.s; });
   return true;

@@ -35,6 +35,13 @@ bool is_vertical(const Sample& lo, const Sample& hi);
 /// The zero of the tangent's parameter component between two completed samples where it has opposite signs.
 Located locate_fold(Segment& segment, const Sample& lo, const Sample& hi);
 
+/// Is this zero a jump of the slope? The corrector then found different branches on its two sides.
+bool slope_jumps(const Sample& lo, const Sample& hi, const Located& fold);
+
+/// Takes the error that Newton's tolerance left out of a fold, and says in its precision how large it was.
+/// @throws std::runtime_error, std::domain_error as the problem does
+void sharpen_fold(Segment& segment, Located& fold);
+
 /// Signs of the events along a branch, by name. An event without an entry counts as positive.
 using EventSigns = std::map<std::string, int>;
 

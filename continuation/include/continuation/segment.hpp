@@ -25,6 +25,11 @@ struct Sample {
   CorrectorReport report;
 };
 
+/// How large a correction was: its length in the metric, and the varied parameter's share.
+struct Correction {
+  double length = 0.0, parameter = 0.0;
+};
+
 /// The piece of a branch that leaves a base point (x, p) with unit tangent t, solved at any path length s by
 ///
 ///     F(x, p) = 0,      dual(t_x)·u + t_p Δp / scale² = s,
@@ -53,6 +58,9 @@ class Segment {
 
   /// Adds the event values.
   void add_events(Sample& sample);
+
+  /// One more correction, on a fresh factorisation. @throws std::runtime_error, std::domain_error as the problem does
+  Correction sharpen(Sample& sample);
 
   /// The completed sample nearest to s on one side (±1), at least `beyond` away; null if there is none.
   const Sample* complete_beside(double s, double beyond, int side) const;
