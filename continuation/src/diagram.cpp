@@ -85,10 +85,16 @@ class Tracer {
     Vector fingerprint = point.problem->fingerprint(point.x, point.p);
     if (SpecialPoint* known = find(point, fingerprint)) {
       point.label = known->point.label;
-      known->arrivals.push_back(Tangent{-point.tangent.x, -point.tangent.p});
-      known->arrival_points.push_back(point);
-      known->arrival_points.back().branch_point.reset();  // its "known" branch is the one looked for here
+      const bool through_itself = known->branch == branch().id;
+      const auto came_along = [&](Tangent way) {
+        known->arrivals.push_back(std::move(way));
+        known->arrival_points.push_back(point);
+        known->arrival_points.back().branch_point.reset();  // its "known" branch is the one looked for here
+      };
+      came_along(Tangent{-point.tangent.x, -point.tangent.p});
+      if (through_itself) came_along(point.tangent);
       observer_.on_point(branch(), point);
+      if (through_itself) return std::nullopt;
       return End{End::Kind::joined, "joins " + branch_name(known->branch) + " at " + known->point.label};
     }
     point.label = next_label(point.type);
@@ -143,9 +149,20 @@ class Tracer {
     return false;
   }
 
+  /// The same solution itself, not its mirror image.
+  static bool same_state(const Point& a, const Point& b) {
+    constexpr double same = 1e-5;  // free along the null vector, to within its curvature
+    return a.x.size() == b.x.size() &&
+           (a.x - b.x).norm() <= same * (std::sqrt(static_cast<double>(a.x.size())) + a.x.norm());
+  }
+
   SpecialPoint* find(const Point& point, const Vector& fingerprint) {
     for (SpecialPoint& known : diagram().specials) {
-      if (known.branch == branch().id || known.point.type != point.type) continue;
+      if (known.point.type != point.type) continue;
+      // A branch may go through itself at a branch point; a mirror image there is another point of it.
+      if (known.branch == branch().id &&
+          (point.type != PointType::branch_point || !same_state(known.point, point)))
+        continue;
       if (same_fingerprint(known.point.p, point.p, 1e-6) &&
           same_fingerprint(known.fingerprint, fingerprint, 1e-5))
         return &known;

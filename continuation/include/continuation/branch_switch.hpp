@@ -27,9 +27,10 @@ struct Arms {
 /// All arms that leave a branch point, the branch it was found on excepted.
 ///
 /// Simple points: both signs of the crossing tangent (pitchfork: ±φ; transcritical: the other branch).
-/// Multiple points: both signs of the directions Problem::kernel_directions names. Each start solves F = 0
-/// with the distance ε along the direction fixed and p free, for several ε until the solution lies along the
-/// direction and all its events are positive. Arms with equal fingerprints are named once.
+/// Multiple points: both signs of the directions Problem::kernel_directions names, or for a double point without
+/// names all rays of the bifurcation equations. Each start solves F = 0 with the distance ε along the direction
+/// fixed and p free, for several ε until the solution lies along the direction and all its events are positive.
+/// Arms with equal fingerprints are named once.
 Arms switch_branch(const Point& branch_point, const Options& options);
 
 /// Why an arm could not be started.

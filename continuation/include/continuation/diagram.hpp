@@ -29,8 +29,8 @@ struct SpecialPoint {
   Point point;  ///< with a label counted over the diagram
   int branch = 0;
   Vector fingerprint;
-  std::vector<Tangent> arrivals;      ///< from a joining branch, pointing back along it
-  std::vector<Point> arrival_points;  ///< and the joining branch's own solution there
+  std::vector<Tangent> arrivals;      ///< of a joining branch, back along it; of the branch itself, both ways
+  std::vector<Point> arrival_points;  ///< and that branch's own solution there
 };
 
 struct Diagram {
@@ -76,7 +76,8 @@ class DiagramObserver {
 /// The first branch, then, breadth first, the arms of every branch point found.
 ///
 /// A branch that meets a special point of another branch (same kind, parameter and fingerprint) has joined
-/// it: it ends there, and the arm it came along is not walked again from the other side.
+/// it: it ends there, and the arm it came along is not walked again from the other side. A branch that goes
+/// through itself meets its own branch point again, and goes on; the arms it is itself are not walked.
 Diagram trace_diagram(std::shared_ptr<Problem> problem, const Vector& x, const Vector& p,
                       const Options& options, const DiagramOptions& diagram_options,
                       DiagramObserver& observer);

@@ -103,7 +103,8 @@ class Problem {
   virtual int determinant_sign();
 
   /// Directions in the kernel of J along which arms may leave a multiple branch point; each is tried with
-  /// both signs. kernel: n×k, unit columns in `inner`. The default is the columns themselves.
+  /// both signs. kernel: n×k, unit columns in `inner`. None (the default): for k = 2 the library finds the arms
+  /// from the bifurcation equations, for larger k it tries the columns.
   virtual std::vector<Vector> kernel_directions(const Vector& x, const Vector& p, const Matrix& kernel);
 
   /// Signed functions, positive where this problem's description is valid (contact forces, gaps, lengths).
