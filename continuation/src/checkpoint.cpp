@@ -9,7 +9,7 @@ namespace continuation {
 
 namespace {
 
-constexpr int format = 2;  // of the data; others are refused
+constexpr int format = 3;  // of the data; others are refused
 
 }  // namespace
 
@@ -69,7 +69,7 @@ void fields(auto& a, Is<WalkState> auto& walk) {
   a("problem", walk.problem), a("x", walk.x), a("p", walk.p), a("tangent", walk.tangent);
   a("previous_tangent", walk.previous_tangent), a("step", walk.step), a("usual_step", walk.usual_step);
   a("after_rejection", walk.after_rejection), a("index", walk.index), a("determinant", walk.determinant);
-  a("breaking_index", walk.breaking_index);
+  a("complex_index", walk.complex_index), a("breaking_index", walk.breaking_index);
   a("events", walk.events), a("previous_events", walk.previous_events), a("last_ds", walk.last_ds);
   a("signs", walk.signs), a("path_length", walk.path_length), a("points", walk.points);
   a("events_in_place", walk.events_in_place), a("started", walk.started);
@@ -82,6 +82,7 @@ void fields(auto& a, Is<WalkState> auto& walk) {
 void fields(auto& a, Is<DiagramState> auto& state) {
   a("diagram", state.diagram), a("pending", state.pending), a("first_special", state.first_special);
   a("folds", state.folds), a("branch_points", state.branch_points), a("events", state.events);
+  a("hopf_points", state.hopf_points);
 }
 
 nlohmann::json encode(const DiagramState& state, const ProblemCodec& codec) {

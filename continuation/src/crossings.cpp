@@ -4,20 +4,40 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <stdexcept>
 
 #include "continuation/detect.hpp"
 
 namespace continuation {
 namespace {
 
-/// Eigenvalues that went through zero between two samples, net; −1: unknown.
-int zeros_between(const Sample& lo, const Sample& hi) {
-  if (lo.index >= 0 && hi.index >= 0) return std::abs(hi.index - lo.index);
-  if (lo.determinant == 0 || hi.determinant == 0) return -1;
-  // det J has the sign of det [J F_p; t] times that of dp/ds.
-  const double a = lo.determinant * lo.tangent.p, b = hi.determinant * hi.tangent.p;
-  return (a < 0.0) != (b < 0.0) ? 1 : 0;
+/// Eigenvalues that crossed the imaginary axis between two samples, net.
+struct Count {
+  int real = 0;  ///< through zero, without sign; −1: unknown
+  int hopf = 0;  ///< complex pairs
+};
+
+/// Real zeros z, pairs through the imaginary axis h and pairs of negative real part that turned complex, c, obey
+/// Δreal = z − 2c, Δcomplex = 2h + 2c: the least eventful solution is taken.
+Count count_between(const Sample& lo, const Sample& hi) {
+  if (lo.index < 0 || hi.index < 0) {
+    if (lo.determinant == 0 || hi.determinant == 0) return {-1, 0};
+    // det J has the sign of det [J F_p; t] times that of dp/ds.
+    const double a = lo.determinant * lo.tangent.p, b = hi.determinant * hi.tangent.p;
+    return {(a < 0.0) != (b < 0.0) ? 1 : 0, 0};
+  }
+  const int real = hi.index - lo.index, pairs = (hi.complex_index - lo.complex_index) / 2;
+  Count best{std::abs(real), pairs};
+  int fewest = std::abs(real) + std::abs(pairs);
+  for (int turned = -std::abs(pairs) - 1; turned <= std::abs(pairs) + 1; ++turned) {
+    const Count count{std::abs(real + 2 * turned), pairs - turned};
+    const int events = count.real + std::abs(count.hopf) + std::abs(turned);
+    if (events < fewest) best = count, fewest = events;
+  }
+  return best;
 }
+
+int zeros_between(const Sample& lo, const Sample& hi) { return count_between(lo, hi).real; }
 
 bool turns(const Sample& lo, const Sample& hi) { return lo.tangent.p * hi.tangent.p < 0.0; }
 
@@ -25,6 +45,19 @@ bool turns(const Sample& lo, const Sample& hi) { return lo.tangent.p * hi.tangen
 double together(const Segment& segment) {
   constexpr double part = 1e-4, rounding = 1e-7;
   return part * segment.reach() + rounding;
+}
+
+Located bracketed(Segment& segment, const Sample& lo, const Sample& hi, PointType type) {
+  Located located;
+  located.type = type;
+  located.s = 0.5 * (lo.s + hi.s);
+  located.lo = lo.s;
+  located.hi = hi.s;
+  located.sample = lo;
+  located.precision = std::abs(segment.parameter(hi) - segment.parameter(lo));
+  located.index = lo.index;
+  located.index_after = hi.index;
+  return located;
 }
 
 class Search {
@@ -48,6 +81,7 @@ class Search {
         found.points.push_back(std::move(*point));
         return;
       }
+      if (depth >= 4 && multiplicity % 2 == 0 && regular(lo, hi)) return;
     }
     // One branch point is found early or not at all; of several each must be shut in by itself first.
     const int patience = multiplicity == 1 ? 4 : 16;
@@ -62,6 +96,24 @@ class Search {
     // Where halving makes the change vanish, the count at one end was roundoff close to an eigenvalue's touch.
     branch_points(lo, *middle, depth + 1, multiplicity);
     branch_points(*middle, hi, depth + 1, multiplicity);
+  }
+
+  /// A complex pair that crosses the imaginary axis, by halving.
+  void hopf_points(const Sample& from, const Sample& to) {
+    const Sample *lo = &from, *hi = &to;
+    if (count_between(*lo, *hi).hopf == 0) return;
+    for (int depth = 0; hi->s - lo->s > tolerance_; ++depth) {
+      const Sample* middle = halfway(*lo, *hi, depth);
+      if (!middle) break;
+      if (count_between(*lo, *middle).hopf != 0) {
+        hi = middle;
+      } else if (count_between(*middle, *hi).hopf != 0) {
+        lo = middle;
+      } else {
+        return;  // the pair met the axis through other ways: it turned real in between
+      }
+    }
+    found.points.push_back(bracketed(segment_, *lo, *hi, PointType::hopf));
   }
 
   /// Is the turn at s a fold, given what was found between samples on its two sides? An odd number of eigenvalues goes
@@ -99,6 +151,20 @@ class Search {
     return nullptr;
   }
 
+  /// The smallest singular value of J changes by less than half of itself and keeps its sign.
+  bool regular(const Sample& lo, const Sample& hi) {
+    Problem& problem = *segment_.problem();
+    try {
+      const NullVectors null = null_vectors(problem, lo.it.x, lo.it.p, 1);
+      const double a = nearness(problem, lo.it.x, lo.it.p, null);
+      const double b = nearness(problem, hi.it.x, hi.it.p, null);
+      return std::abs(b - a) < 0.5 * std::abs(a);
+    } catch (const std::domain_error&) {
+    } catch (const std::runtime_error&) {  // singular even with one border
+    }
+    return false;
+  }
+
   bool known(const BranchPoint& point) const {
     constexpr double same = 1e-5;  // the state is free along the null vector, to within its curvature
     const Eigen::Index parameter = options_.parameter;
@@ -125,14 +191,9 @@ class Search {
       why = "the branch point equations lead out of the bracket";
       return std::nullopt;
     }
-    Located located;
-    located.type = PointType::branch_point;
-    located.lo = lo.s;
-    located.hi = hi.s;
+    Located located = bracketed(segment_, lo, hi, PointType::branch_point);
     located.s = lo.s + std::clamp(part, 0.0, 1.0) * (hi.s - lo.s);
     located.precision = point->precision;
-    located.index = lo.index;
-    located.index_after = hi.index;
     located.multiplicity = multiplicity;
     located.sample.it.x = point->x;
     located.sample.it.p = point->p;
@@ -159,15 +220,7 @@ class Search {
 
 Located unpolished(Segment& segment, const Sample& lo, const Sample& hi, int multiplicity,
                    const std::string& why) {
-  Located located;
-  located.type = PointType::branch_point;
-  located.s = 0.5 * (lo.s + hi.s);
-  located.lo = lo.s;
-  located.hi = hi.s;
-  located.sample = lo;
-  located.precision = std::abs(segment.parameter(hi) - segment.parameter(lo));
-  located.index = lo.index;
-  located.index_after = hi.index;
+  Located located = bracketed(segment, lo, hi, PointType::branch_point);
   located.multiplicity = multiplicity;
   located.note = "not polished: " + (why.empty() ? segment.failure() : why);
   return located;
@@ -178,6 +231,7 @@ Crossings locate_crossings(Segment& segment, const Sample& lo, const Sample& hi,
   Search search(segment, edge, may_refuse);
   if (!turn) {
     search.branch_points(lo, hi);
+    search.hopf_points(lo, hi);
     return std::move(search.found);
   }
   // The samples that located the turn enclose it: no more are needed.
@@ -190,6 +244,7 @@ Crossings locate_crossings(Segment& segment, const Sample& lo, const Sample& hi,
   search.branch_points(a, b);
   if (search.found.refusal.empty()) search.found.fold = search.fold(a, b, turn->s);
   search.branch_points(b, hi);
+  search.hopf_points(lo, hi);
   return std::move(search.found);
 }
 

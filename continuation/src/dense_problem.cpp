@@ -58,10 +58,13 @@ Vector DenseProblem::solve_transposed(const Vector& f, const Vector& g) {
 
 int DenseProblem::index(const Vector&, const Vector&) {
   int real = 0;
+  complex_ = 0;
   for (const std::complex<double>& value : Eigen::VectorXcd(j_.eigenvalues()))
-    real += value.imag() == 0.0 && value.real() < 0.0;
+    if (value.real() < 0.0) ++(value.imag() == 0.0 ? real : complex_);
   return real;
 }
+
+int DenseProblem::complex_index(const Vector&, const Vector&) { return complex_; }
 
 int DenseProblem::determinant_sign() {
   double sign = lu_.permutationP().determinant();

@@ -9,7 +9,7 @@ namespace {
 
 bool is_special(const Point& point) {
   return point.type == PointType::fold || point.type == PointType::branch_point ||
-         point.type == PointType::event;
+         point.type == PointType::event || point.type == PointType::hopf;
 }
 
 /// Branches are numbered from 1 for people.
@@ -173,6 +173,7 @@ class Tracer {
   std::string next_label(PointType type) {
     if (type == PointType::fold) return "F" + std::to_string(++state_.folds);
     if (type == PointType::branch_point) return "B" + std::to_string(++state_.branch_points);
+    if (type == PointType::hopf) return "H" + std::to_string(++state_.hopf_points);
     return "E" + std::to_string(++state_.events);
   }
 

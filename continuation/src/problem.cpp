@@ -38,6 +38,8 @@ Vector Problem::dual(const Vector& a) const {
   return a * (inner(a, a) / square);
 }
 
+int Problem::complex_index(const Vector&, const Vector&) { return 0; }
+
 int Problem::breaking_index(const Vector&, const Vector&) { return -1; }
 
 std::optional<Unrestricted> Problem::unrestricted(const Vector&, const Vector&) { return std::nullopt; }

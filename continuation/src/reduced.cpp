@@ -57,6 +57,12 @@ NullVectors null_vectors(Problem& problem, const Vector& x, const Vector& p, Eig
   return null;
 }
 
+double nearness(Problem& problem, const Vector& x, const Vector& p, const NullVectors& null) {
+  const Vector row = null.right.col(0) / null.right.col(0).squaredNorm();
+  problem.factor(x, p, null.left.leftCols(1), row, Matrix::Zero(1, 1));
+  return problem.solve(Vector::Zero(problem.size()), Vector::Ones(1))[problem.size()];
+}
+
 Reduced::Reduced(Problem& problem, const Options& options, const Vector& x, const Vector& p, NullVectors null,
                  std::vector<Eigen::Index> parameters)
     : problem_(problem), options_(options), null_(std::move(null)), parameters_(std::move(parameters)) {

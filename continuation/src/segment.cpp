@@ -127,6 +127,7 @@ void Segment::complete(Sample& sample) {
   if (!sample.tangent.x.allFinite()) throw std::runtime_error("the tangent is not finite");
   sample.determinant = problem.determinant_sign();
   sample.index = options_.detect_branch_points ? problem.index(sample.it.x, sample.it.p) : -1;
+  sample.complex_index = sample.index >= 0 ? problem.complex_index(sample.it.x, sample.it.p) : 0;
   sample.breaking_index =
       options_.detect_branch_points ? problem.breaking_index(sample.it.x, sample.it.p) : -1;
   sample.complete = true;

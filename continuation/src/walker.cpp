@@ -22,6 +22,8 @@ const char* name(PointType type) {
       return "event";
     case PointType::end:
       return "end";
+    case PointType::hopf:
+      return "hopf";
   }
   return "?";
 }
@@ -162,6 +164,7 @@ void Walker::settle(Segment& segment, Sample& sample) {
   state_.previous_tangent = state_.tangent;
   state_.tangent = sample.tangent;
   state_.index = sample.index;
+  state_.complex_index = sample.complex_index;
   state_.breaking_index = sample.breaking_index;
   state_.determinant = sample.determinant;
   state_.previous_events = std::exchange(state_.events, sample.events);

@@ -48,6 +48,7 @@ bool Walker::advance_once(std::string& failure) {
   Sample& base = segment.base();
   base.complete = true;
   base.index = state_.index;
+  base.complex_index = state_.complex_index;
   base.breaking_index = state_.breaking_index;
   base.determinant = state_.determinant;
   base.events = state_.events;
@@ -83,7 +84,7 @@ bool Walker::advance_once(std::string& failure) {
   return true;
 }
 
-// Folds and branch points between the base and `end`, in the order of the branch; false where the step must be refused.
+// Folds, branch points and Hopf points between the base and `end`, in the order of the branch; false where the step must be refused.
 bool Walker::find_specials(Segment& segment, const Sample& end, const Located* turn, bool at_event,
                            std::vector<Located>& specials, std::string& failure) {
   Crossings crossings;

@@ -8,8 +8,7 @@
 namespace continuation {
 
 /// A small problem given by functions: F(x, p), and J = ∂F/∂x if there is a formula (differences otherwise).
-/// Factored by LU with partial pivoting; the index is the number of negative real
-/// eigenvalues of J.
+/// Factored by LU with partial pivoting; the index comes from all eigenvalues of J, complex pairs told apart.
 class DenseProblem : public Problem {
  public:
   using Residual = std::function<Vector(const Vector& x, const Vector& p)>;
@@ -24,6 +23,7 @@ class DenseProblem : public Problem {
   Vector solve(const Vector& f, const Vector& g) override;
   Vector solve_transposed(const Vector& f, const Vector& g) override;
   int index(const Vector& x, const Vector& p) override;
+  int complex_index(const Vector& x, const Vector& p) override;
   int determinant_sign() override;
   std::shared_ptr<Problem> clone() const override { return std::make_shared<DenseProblem>(*this); }
 
@@ -32,6 +32,7 @@ class DenseProblem : public Problem {
   Residual residual_;
   Jacobian jacobian_;
   Matrix j_;
+  int complex_ = 0;
   Eigen::PartialPivLU<Matrix> lu_;
 };
 

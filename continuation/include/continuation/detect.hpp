@@ -52,15 +52,16 @@ std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, co
 
 /// What the index says of a step.
 struct Crossings {
-  std::vector<Located> points;  ///< branch points, not sorted
+  std::vector<Located> points;  ///< branch points and Hopf points, not sorted
   bool fold = false;            ///< the turn of the parameter is a fold
   std::string refusal;          ///< the index changes where no branch point is: the step has left its branch
 };
 
-/// Branch points, and the nature of a turn, between two completed samples.
+/// Branch points, Hopf points and the nature of a turn between two completed samples.
 ///
 /// An interval over which the index changes (det J where it is unknown) is halved until the reduced equations find the
-/// point in it. A turn of the parameter is a fold if the index changes by an odd number across it.
+/// point in it. A turn of the parameter is a fold if the index changes by an odd number across it. Where several
+/// eigenvalues change sign but J stays regular, a complex pair became real or the reverse.
 ///
 /// @param turn  where dp/ds vanishes, or null
 /// @param edge  path length of an event: the index close to it may change for reasons of its own

@@ -55,8 +55,8 @@ struct DiagramState {
   Diagram diagram;  ///< so far; its last branch is in progress if there is a walker
   std::deque<PendingBranch> pending;
   std::optional<Walker> walker;
-  int first_special = 0;                         ///< of the branch in progress, place in Diagram::specials
-  int folds = 0, branch_points = 0, events = 0;  ///< labels given
+  int first_special = 0;  ///< of the branch in progress, place in Diagram::specials
+  int folds = 0, branch_points = 0, events = 0, hopf_points = 0;  ///< labels given
 };
 
 /// Receives the diagram while it grows. All do nothing by default.

@@ -7,9 +7,9 @@
 
 namespace continuation {
 
-enum class PointType { start, regular, fold, branch_point, event, end };
+enum class PointType { start, regular, fold, branch_point, event, end, hopf };
 
-/// "start", "regular", "fold", "branch_point", "event", "end".
+/// The enumerator's own name.
 const char* name(PointType type);
 
 /// One accepted or located solution of a branch.

@@ -72,8 +72,12 @@ class Problem {
 
   /// Number of negative eigenvalues of the second variation at (x, p), an equilibrium; the last `factor` was
   /// made there. Problems that are not gradients return the number of negative real eigenvalues of J, or -1
-  /// if unknown.
+  /// if unknown: branch points are then seen by determinant_sign() alone.
   virtual int index(const Vector& x, const Vector& p) = 0;
+
+  /// Number of complex eigenvalues of J with negative real part (two a pair), asked for right after index(). With it
+  /// Hopf points are seen, and a pair that turns real is told from branch points. The default is 0.
+  virtual int complex_index(const Vector& x, const Vector& p);
 
   /// Where F is posed on the symmetric states of a larger problem only (half of a body that is its own mirror
   /// image): negative directions of the larger problem's second variation that break the symmetry, which index()

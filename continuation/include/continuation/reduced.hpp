@@ -19,6 +19,10 @@ struct NullVectors {
 /// @throws std::runtime_error if the bordered matrix is singular (the kernel has more than k dimensions)
 NullVectors null_vectors(Problem& problem, const Vector& x, const Vector& p, Eigen::Index k, int passes = 3);
 
+/// y_α of the reduction below with these null vectors (the first columns): zero where J is singular, smooth along a
+/// branch. One factorisation. @throws as Problem::factor
+double nearness(Problem& problem, const Vector& x, const Vector& p, const NullVectors& null);
+
 /// Lyapunov-Schmidt reduction y(p, α) of F near a point where J is nearly singular:
 ///
 ///     F(x, p) + ψ y = 0,      φ*ᵀ u = α,      φ*ᵀ φ = 1,

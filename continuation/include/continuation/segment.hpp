@@ -19,6 +19,7 @@ struct Sample {
   Tangent tangent;                    ///< unit, oriented like the base's; empty until completed
   bool complete = false;              ///< tangent, index and determinant are known
   int index = -1;                     ///< Problem::index; -1: unknown
+  int complex_index = 0;              ///< Problem::complex_index
   int breaking_index = -1;            ///< Problem::breaking_index; -1: unknown
   int determinant = 0;                ///< sign of det [J F_p; base tangent]; 0: unknown
   std::vector<EventFunction> events;  ///< empty unless asked for
