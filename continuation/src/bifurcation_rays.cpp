@@ -15,7 +15,7 @@ class Circle {
       : options_(options),
         p_(p),
         radius_(radius),
-        reduced_(problem, options, x, p, null_vectors(problem, x, p, 2), {options.parameter}) {}
+        reduced_(problem, options, x, p, null_vectors(problem, x, p, 2, options), {options.parameter}) {}
 
   /// sin of the angle between g and b: zero on an arm. @throws std::runtime_error where F cannot be solved
   double operator()(double theta) {
@@ -66,7 +66,7 @@ std::vector<Tangent> bifurcation_rays(Problem& problem, const Options& options, 
                                       [&](double t) -> std::optional<double> { return circle(t); });
     if (std::abs(circle(bracket.best)) > 0.1) continue;  // a jump: g passes through zero beside λ₀
     Tangent ray = circle.way();
-    normalise(problem, ray, options.parameter_scale);
+    normalise(problem, ray, options.scales());
     rays.push_back(std::move(ray));
   }
   return rays;

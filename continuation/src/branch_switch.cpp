@@ -9,15 +9,15 @@
 
 namespace continuation {
 
-bool same_fingerprint(const Vector& a, const Vector& b, double tolerance) {
+bool same_fingerprint(const Vector& a, const Vector& b, double tolerance, double unit) {
   if (a.size() != b.size()) return false;
   const double n = std::max<double>(1.0, static_cast<double>(a.size()));
-  return (a - b).norm() <= tolerance * std::max(std::sqrt(n), a.norm());
+  return (a - b).norm() <= tolerance * std::max(unit * std::sqrt(n), a.norm());
 }
 
 std::optional<Arm> start_arm(const Point& branch_point, const Tangent& direction, double epsilon,
                              const Options& options, ArmFailure& failure) {
-  const double scale = options.parameter_scale;
+  const Scales scale = options.scales();
   try {
     Arm arm;
     arm.problem = branch_point.problem->clone();
@@ -64,9 +64,9 @@ Directions directions_from(const Point& at, const Options& options) {
   if (at.branch_point && at.branch_point->tangents.size() == 2) {
     directions.list.push_back(at.branch_point->tangents[1]);
   } else {
-    const Matrix kernel = at.branch_point
-                              ? at.branch_point->null.right
-                              : null_vectors(problem, at.x, at.p, std::max(1, at.multiplicity)).right;
+    const Matrix kernel =
+        at.branch_point ? at.branch_point->null.right
+                        : null_vectors(problem, at.x, at.p, std::max(1, at.multiplicity), options).right;
     std::vector<Vector> named = problem.kernel_directions(at.x, at.p, kernel);
     if (named.empty() && kernel.cols() == 2) directions.list = bifurcation_rays(problem, options, at.x, at.p);
     directions.rays = !directions.list.empty();
@@ -74,7 +74,7 @@ Directions directions_from(const Point& at, const Options& options) {
       for (Eigen::Index i = 0; i < kernel.cols(); ++i) named.emplace_back(kernel.col(i));
     for (Vector& d : named) directions.list.push_back(Tangent{std::move(d), 0.0});
   }
-  for (Tangent& direction : directions.list) normalise(problem, direction, options.parameter_scale);
+  for (Tangent& direction : directions.list) normalise(problem, direction, options.scales());
   return directions;
 }
 
@@ -109,8 +109,10 @@ Arms switch_branch(const Point& branch_point, const Options& options) {
       }
       const Vector fingerprint = arm->problem->fingerprint(arm->x, arm->p);
       const auto twin = std::find_if(arms.arms.begin(), arms.arms.end(), [&](const Arm& other) {
-        return other.epsilon == arm->epsilon && same_fingerprint(other.p, arm->p, 1e-7) &&
-               same_fingerprint(other.problem->fingerprint(other.x, other.p), fingerprint, 1e-7);
+        return other.epsilon == arm->epsilon &&
+               same_fingerprint(other.p, arm->p, 1e-7, options.parameter_scale) &&
+               same_fingerprint(other.problem->fingerprint(other.x, other.p), fingerprint, 1e-7,
+                                options.state_scale);
       });
       if (twin == arms.arms.end()) {
         arms.arms.push_back(std::move(*arm));

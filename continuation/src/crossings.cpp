@@ -65,7 +65,8 @@ class Search {
   Search(Segment& segment, double edge, bool may_refuse)
       : segment_(segment),
         options_(segment.options()),
-        tolerance_(options_.location_tolerance * std::max(1.0, std::abs(segment.parameter(segment.base())))),
+        tolerance_(options_.location_tolerance *
+                   std::max(1.0, std::abs(segment.parameter(segment.base())) / options_.parameter_scale)),
         edge_(edge),
         may_refuse_(may_refuse) {}
 
@@ -137,7 +138,8 @@ class Search {
   int multiplicity_between(const Sample& lo, const Sample& hi) const {
     const int change = zeros_between(lo, hi);
     if (change < 0) return 0;
-    if (is_vertical(lo, hi)) return std::max(change - 1, 0);  // the branch's own direction is neutral
+    if (is_vertical(segment_, lo, hi))
+      return std::max(change - 1, 0);  // the branch's own direction is neutral
     if (!turns(lo, hi)) return change;
     // A fold changes the index by one; unchanged across a turn, the side branch of a pitchfork goes through it.
     return change == 1 ? 0 : std::max(change, 1);
@@ -155,9 +157,9 @@ class Search {
   bool regular(const Sample& lo, const Sample& hi) {
     Problem& problem = *segment_.problem();
     try {
-      const NullVectors null = null_vectors(problem, lo.it.x, lo.it.p, 1);
-      const double a = nearness(problem, lo.it.x, lo.it.p, null);
-      const double b = nearness(problem, hi.it.x, hi.it.p, null);
+      const NullVectors null = null_vectors(problem, lo.it.x, lo.it.p, 1, options_);
+      const double a = nearness(problem, lo.it.x, lo.it.p, null, options_);
+      const double b = nearness(problem, hi.it.x, hi.it.p, null, options_);
       return std::abs(b - a) < 0.5 * std::abs(a);
     } catch (const std::domain_error&) {
     } catch (const std::runtime_error&) {  // singular even with one border
@@ -170,8 +172,9 @@ class Search {
     const Eigen::Index parameter = options_.parameter;
     return std::any_of(found.points.begin(), found.points.end(), [&](const Located& other) {
       return other.branch_point &&
-             (other.branch_point->x - point.x).norm() <= same * (1.0 + point.x.norm()) &&
-             std::abs(other.branch_point->p[parameter] - point.p[parameter]) <= 1e3 * tolerance_;
+             (other.branch_point->x - point.x).norm() <= same * (options_.state_scale + point.x.norm()) &&
+             std::abs(other.branch_point->p[parameter] - point.p[parameter]) <=
+                 1e3 * options_.parameter_scale * tolerance_;
     });
   }
 
@@ -184,7 +187,7 @@ class Search {
     // A little slack only: of two points close together each bracket must yield its own. Where p is monotonic it says
     // better than the chord whether the point is inside.
     const double slack = 0.01 + 1e-7 / (hi.s - lo.s);
-    const double margin = 1e-4 * std::abs(p_hi - p_lo) + 1e-7;
+    const double margin = 1e-4 * std::abs(p_hi - p_lo) + 1e-7 * options_.parameter_scale;
     const bool inside =
         turns(lo, hi) || (p > std::min(p_lo, p_hi) - margin && p < std::max(p_lo, p_hi) + margin);
     if (!(part > -slack && part < 1.0 + slack && inside) || known(*point)) {
@@ -200,7 +203,7 @@ class Search {
     located.sample.tangent = lo.tangent;
     if (!point->tangents.empty()) {
       Tangent along = point->tangents[0];
-      if (inner(*segment_.problem(), along, lo.tangent, options_.parameter_scale) < 0.0) {
+      if (inner(*segment_.problem(), along, lo.tangent, options_.scales()) < 0.0) {
         along.x = -along.x;
         along.p = -along.p;
       }

@@ -8,7 +8,9 @@ namespace continuation {
 namespace {
 
 double tolerance(Segment& segment) {
-  return segment.options().location_tolerance * std::max(1.0, std::abs(segment.parameter(segment.base())));
+  const Options& options = segment.options();
+  return options.location_tolerance *
+         std::max(1.0, std::abs(segment.parameter(segment.base())) / options.parameter_scale);
 }
 
 // Precision of the parameter from the parameter's values at the bracket's ends.
@@ -31,10 +33,11 @@ int sign_of(const EventSigns& signs, const std::string& name) {
 
 }  // namespace
 
-bool is_vertical(const Sample& lo, const Sample& hi) {
+bool is_vertical(const Segment& segment, const Sample& lo, const Sample& hi) {
+  const double unit = segment.options().parameter_scale;
   constexpr double rounding = 1e-9, slope = 1e-3;
-  return (hi.it.p - lo.it.p).cwiseAbs().maxCoeff() <= rounding * std::abs(hi.s - lo.s) &&
-         std::max(std::abs(lo.tangent.p), std::abs(hi.tangent.p)) < slope;
+  return (hi.it.p - lo.it.p).cwiseAbs().maxCoeff() <= rounding * unit * std::abs(hi.s - lo.s) &&
+         std::max(std::abs(lo.tangent.p), std::abs(hi.tangent.p)) < slope * unit;
 }
 
 Located locate_fold(Segment& segment, const Sample& lo, const Sample& hi) {
@@ -52,7 +55,8 @@ Located locate_fold(Segment& segment, const Sample& lo, const Sample& hi) {
   fold.lo = bracket.lo;
   fold.hi = bracket.hi;
   // p is flat at a fold: its error is half the slope at the end times the bracket.
-  const double slope = std::max(std::abs(fold.sample.tangent.p), bracket.hi - bracket.lo);
+  const double unit = segment.options().parameter_scale;
+  const double slope = std::max(std::abs(fold.sample.tangent.p), unit * (bracket.hi - bracket.lo));
   fold.precision = slope * (bracket.hi - bracket.lo);
   fold.index = lo.index;
   fold.index_after = hi.index;
@@ -71,7 +75,9 @@ void sharpen_fold(Segment& segment, Located& fold) {
   // p is stationary along the branch: there an error of the state counts by its square.
   const double rounding =
       4.0 * std::numeric_limits<double>::epsilon() * std::abs(segment.parameter(fold.sample));
-  fold.precision = std::max({fold.precision, left.parameter + left.length * left.length, rounding});
+  fold.precision =
+      std::max({fold.precision,
+                left.parameter + segment.options().parameter_scale * left.length * left.length, rounding});
 }
 
 std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, const EventSigns& signs) {
@@ -121,7 +127,7 @@ std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, co
     event.lo = bracket.lo;
     event.hi = bracket.hi;
     event.precision = width(segment, bracket.lo, bracket.hi);
-    constexpr double narrow = 1e-5;
+    const double narrow = 1e-5 * segment.options().parameter_scale;
     if (!bracket.converged && event.precision > narrow) {
       event.note = "bracket not converged: " + segment.failure();
     }

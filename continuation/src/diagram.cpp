@@ -136,7 +136,10 @@ class Tracer {
     const SpecialPoint& origin = special(next.special);
     const Vector fingerprint = arm.problem->fingerprint(arm.x, arm.p);
     if (fingerprint.size() != origin.fingerprint.size()) return false;
-    const double moved = (fingerprint - origin.fingerprint).norm() + (arm.p - origin.point.p).norm();
+    const auto distance = [&](const Vector& print, const Vector& p, const Vector& other, const Vector& q) {
+      return (print - other).norm() / options_.state_scale + (p - q).norm() / options_.parameter_scale;
+    };
+    const double moved = distance(fingerprint, arm.p, origin.fingerprint, origin.point.p);
     for (std::size_t i = 0; i < origin.arrivals.size(); ++i) {
       ArmFailure failure;
       const std::optional<Arm> back =
@@ -144,16 +147,17 @@ class Tracer {
       if (!back) continue;
       const Vector other = back->problem->fingerprint(back->x, back->p);
       if (other.size() != fingerprint.size()) continue;
-      if ((other - fingerprint).norm() + (back->p - arm.p).norm() <= 0.05 * moved + 1e-7) return true;
+      if (distance(other, back->p, fingerprint, arm.p) <= 0.05 * moved + 1e-7) return true;
     }
     return false;
   }
 
   /// The same solution itself, not its mirror image.
-  static bool same_state(const Point& a, const Point& b) {
+  bool same_state(const Point& a, const Point& b) const {
     constexpr double same = 1e-5;  // free along the null vector, to within its curvature
     return a.x.size() == b.x.size() &&
-           (a.x - b.x).norm() <= same * (std::sqrt(static_cast<double>(a.x.size())) + a.x.norm());
+           (a.x - b.x).norm() <=
+               same * (options_.state_scale * std::sqrt(static_cast<double>(a.x.size())) + a.x.norm());
   }
 
   SpecialPoint* find(const Point& point, const Vector& fingerprint) {
@@ -163,8 +167,8 @@ class Tracer {
       if (known.branch == branch().id &&
           (point.type != PointType::branch_point || !same_state(known.point, point)))
         continue;
-      if (same_fingerprint(known.point.p, point.p, 1e-6) &&
-          same_fingerprint(known.fingerprint, fingerprint, 1e-5))
+      if (same_fingerprint(known.point.p, point.p, 1e-6, options_.parameter_scale) &&
+          same_fingerprint(known.fingerprint, fingerprint, 1e-5, options_.state_scale))
         return &known;
     }
     return nullptr;

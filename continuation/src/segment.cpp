@@ -14,7 +14,8 @@ Segment::Segment(std::shared_ptr<Problem> problem, const Options& options, Vecto
   keller_.parameter = options_.parameter;
   keller_.scale = options_.parameter_scale;
   keller_.psi = Matrix(problem_->size(), 0);
-  keller_.c = problem_->dual(tangent_.x);
+  keller_.state_scale = options_.state_scale;
+  keller_.c = problem_->dual(tangent_.x) / (options_.state_scale * options_.state_scale);
   keller_.d = Matrix::Constant(1, 1, tangent_.p / (keller_.scale * keller_.scale));
   keller_.g = Vector::Zero(1);
   Sample base;
@@ -123,7 +124,7 @@ void Segment::complete(Sample& sample) {
     const Matrix column = problem.parameter_derivative(sample.it.x, sample.it.p, options_.parameter);
     problem.factor(sample.it.x, sample.it.p, column, keller_.c, keller_.d);
   }
-  sample.tangent = next_tangent(problem, options_.parameter_scale);
+  sample.tangent = next_tangent(problem, options_.scales());
   if (!sample.tangent.x.allFinite()) throw std::runtime_error("the tangent is not finite");
   sample.determinant = problem.determinant_sign();
   sample.index = options_.detect_branch_points ? problem.index(sample.it.x, sample.it.p) : -1;

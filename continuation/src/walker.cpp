@@ -61,7 +61,7 @@ Walker::Walker(std::shared_ptr<Problem> problem, Vector x, Vector p, Tangent tan
     throw std::invalid_argument("continuation: the tangent has " + std::to_string(tangent.x.size()) +
                                 " entries, the problem " + std::to_string(state_.problem->size()));
   }
-  normalise(*state_.problem, tangent, options_.parameter_scale);
+  normalise(*state_.problem, tangent, options_.scales());
   state_.tangent = std::move(tangent);
   state_.has_tangent = true;
 }
@@ -106,6 +106,7 @@ void Walker::start() {
       Borders fixed;
       fixed.parameter = options_.parameter;
       fixed.scale = options_.parameter_scale;
+      fixed.state_scale = options_.state_scale;
       fixed.psi = Matrix(state_.problem->size(), 0);
       fixed.c = Matrix::Zero(state_.problem->size(), 1);
       fixed.d = Matrix::Ones(1, 1);

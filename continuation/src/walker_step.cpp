@@ -16,7 +16,7 @@ namespace continuation {
 // which is θ'/6 where the curvature changes by as much as turns the tangent by θ'.
 bool Walker::leaves_branch(const Segment& segment, const Sample& end, std::string& failure) const {
   const Problem& problem = *state_.problem;
-  const double scale = options_.parameter_scale;
+  const Scales scale = options_.scales();
   const Tangent &from = state_.tangent, &to = end.tangent;
   const double cosine = inner(problem, from, to, scale);
   if (cosine < std::cos(options_.max_angle)) return failure = "the tangent turns too much", true;
@@ -30,8 +30,8 @@ bool Walker::leaves_branch(const Segment& segment, const Sample& end, std::strin
   if (distance(sum, end.s / (1.0 + cosine)) > std::tan(options_.max_angle / 6.0))
     return failure = "the corrector has left the branch: the tangents do not lead from point to point", true;
   const double rise = segment.parameter(end) - parameter(state_.p);
-  if (!is_vertical(segment.base(), end) && from.p * to.p > 0.0 && rise * from.p < 0.0 &&
-      std::abs(rise) > 1e-9 * end.s && 0.5 * end.s >= options_.step_min)
+  if (!is_vertical(segment, segment.base(), end) && from.p * to.p > 0.0 && rise * from.p < 0.0 &&
+      std::abs(rise) > 1e-9 * options_.parameter_scale * end.s && 0.5 * end.s >= options_.step_min)
     return failure = "two folds in one step", true;
   return false;
 }
@@ -56,7 +56,7 @@ bool Walker::advance_once(std::string& failure) {
   if (!end) return failure = segment.failure(), false;
   if (leaves_branch(segment, *end, failure)) return false;
   std::optional<Located> turn;
-  if ((options_.detect_folds || options_.detect_branch_points) && !is_vertical(base, *end) &&
+  if ((options_.detect_folds || options_.detect_branch_points) && !is_vertical(segment, base, *end) &&
       state_.tangent.p * end->tangent.p < 0.0)
     turn = locate_fold(segment, base, *end);
   if (turn && long_step(end->s) && slope_jumps(base, *end, *turn))
@@ -109,7 +109,8 @@ bool Walker::find_specials(Segment& segment, const Sample& end, const Located* t
   const double p = segment.parameter(end);
   if (at_event)
     std::erase_if(found, [&](const Located& l) {
-      return std::abs(segment.parameter(l.sample) - p) < 1e-8 * std::max(1.0, std::abs(p));
+      return std::abs(segment.parameter(l.sample) - p) <
+             1e-8 * std::max(options_.parameter_scale, std::abs(p));
     });
   if (turn && crossings.fold && options_.detect_folds) {
     Located fold = *turn;
@@ -139,7 +140,7 @@ void Walker::accept(Segment& segment, Sample& end, const CorrectorReport& report
   } else {
     step_length_.accepted(report.iterations, report.contraction);
     // A start at a fold is never crossed transversely in p: its neighbour stands in for it.
-    if (state_.points == 2 && std::abs(state_.start_slope) < 0.1) remember_start();
+    if (state_.points == 2 && std::abs(state_.start_slope) < 0.1 * options_.parameter_scale) remember_start();
   }
   adapt();  // first, so that every point is yielded on a discretisation that suits it
   if (state_.end) return;

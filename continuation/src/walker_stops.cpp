@@ -122,17 +122,20 @@ Sample* Walker::close(Segment& segment, Sample& end, Located* fold) {
   Sample& hi = first_half ? middle : end;
   if (!crosses(segment, lo, hi, state_.start_parameter)) return nullptr;
   const bool comparable = !state_.mesh_changed;
-  if (comparable && rms(state_.x - state_.start_x) > 3.0 * rms(end.it.x - state_.x) + 1e-3) return nullptr;
+  if (comparable &&
+      rms(state_.x - state_.start_x) > 3.0 * rms(end.it.x - state_.x) + 1e-3 * options_.state_scale)
+    return nullptr;
   Sample* sample = segment.at_parameter(state_.start_parameter, lo, hi, true);
   if (!sample || sample->s < 0.0 || sample->s > end.s) return nullptr;
-  if (comparable && rms(sample->it.x - state_.start_x) <= 1e-6 * std::max(1.0, rms(state_.start_x)))
+  if (comparable &&
+      rms(sample->it.x - state_.start_x) <= 1e-6 * std::max(options_.state_scale, rms(state_.start_x)))
     return sample;
   if (comparable) return nullptr;
   const Vector now = state_.problem->fingerprint(sample->it.x, sample->it.p);
   // Another mesh: equal only within its error.
-  const bool same =
-      now.size() == state_.start_fingerprint.size() &&
-      rms(now - state_.start_fingerprint) <= 1e-5 * std::max(1.0, rms(state_.start_fingerprint));
+  const bool same = now.size() == state_.start_fingerprint.size() &&
+                    rms(now - state_.start_fingerprint) <=
+                        1e-5 * std::max(options_.state_scale, rms(state_.start_fingerprint));
   return same ? sample : nullptr;
 }
 

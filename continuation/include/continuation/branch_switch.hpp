@@ -43,7 +43,7 @@ struct ArmFailure {
 std::optional<Arm> start_arm(const Point& branch_point, const Tangent& direction, double epsilon,
                              const Options& options, ArmFailure& failure);
 
-/// rms(a − b) <= tolerance · max(1, rms a), and equal lengths.
-bool same_fingerprint(const Vector& a, const Vector& b, double tolerance);
+/// rms(a − b) <= tolerance · max(unit, rms a), and equal lengths.
+bool same_fingerprint(const Vector& a, const Vector& b, double tolerance, double unit = 1.0);
 
 }  // namespace continuation

@@ -30,7 +30,7 @@ struct Located {
 
 /// Does the parameter stay where it is between two completed samples, to within rounding? A motion that costs nothing makes
 /// such a branch; all its points are degenerate, none is a fold.
-bool is_vertical(const Sample& lo, const Sample& hi);
+bool is_vertical(const Segment& segment, const Sample& lo, const Sample& hi);
 
 /// The zero of the tangent's parameter component between two completed samples where it has opposite signs.
 Located locate_fold(Segment& segment, const Sample& lo, const Sample& hi);
