@@ -52,7 +52,7 @@ void fields(auto& a, Is<SpecialPoint> auto& special) {
 
 void fields(auto& a, Is<Diagram> auto& diagram) {
   a("branches", diagram.branches), a("specials", diagram.specials), a("lost", diagram.lost);
-  a("inadmissible", diagram.inadmissible);
+  a("inadmissible", diagram.inadmissible), a("notes", diagram.notes);
 }
 
 void fields(auto& a, Is<Arm> auto& arm) {

@@ -78,6 +78,8 @@ class Tracer {
 
   /// Hands a point out; returns the branch's end if it is a special point of another branch.
   std::optional<End> report(Point point) {
+    if (point.type == PointType::start && !point.note.empty())
+      diagram().notes.push_back(branch_name(branch().id) + ": " + point.note);
     if (!is_special(point)) {
       observer_.on_point(branch(), point);
       return std::nullopt;
@@ -85,6 +87,11 @@ class Tracer {
     Vector fingerprint = point.problem->fingerprint(point.x, point.p);
     if (SpecialPoint* known = find(point, fingerprint)) {
       point.label = known->point.label;
+      // The branch that goes the other way from a start on a branch point has not come along any arm of it.
+      if (point.type == PointType::branch_point && point.path_length == 0.0) {
+        observer_.on_point(branch(), point);
+        return std::nullopt;
+      }
       const bool through_itself = known->branch == branch().id;
       const auto came_along = [&](Tangent way) {
         known->arrivals.push_back(std::move(way));

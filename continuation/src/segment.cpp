@@ -105,6 +105,11 @@ Sample* Segment::at(double s, bool wants_complete) {
   return sample;
 }
 
+const Sample* Segment::corrected() {
+  keller_.g[0] = 0.0;
+  return finish(keller_, base().it, true);
+}
+
 Sample* Segment::at_parameter(double value, const Sample& lo, const Sample& hi, bool wants_complete) {
   const double change = value - base().it.p[options_.parameter];
   const double rise = hi.it.y[0] - lo.it.y[0];

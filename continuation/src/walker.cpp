@@ -99,44 +99,6 @@ std::optional<Point> Walker::step() {
   return point;
 }
 
-void Walker::start() {
-  state_.started = true;
-  try {
-    if (!state_.has_tangent) {
-      Borders fixed;
-      fixed.parameter = options_.parameter;
-      fixed.scale = options_.parameter_scale;
-      fixed.state_scale = options_.state_scale;
-      fixed.psi = Matrix(state_.problem->size(), 0);
-      fixed.c = Matrix::Zero(state_.problem->size(), 1);
-      fixed.d = Matrix::Ones(1, 1);
-      fixed.g = Vector::Zero(1);
-      Iterate it{state_.x, Vector::Zero(state_.problem->size()), state_.p, Vector::Zero(1)};
-      Options patient = options_;  // a cold start deserves more corrections than a step
-      patient.max_newton = std::max(options_.max_newton, 20);
-      const CorrectorReport report = correct(*state_.problem, fixed, it, patient);
-      if (!report.converged) return lose("no solution at the start: " + report.failure);
-      state_.x = it.x;
-      state_.tangent = first_tangent(*state_.problem, state_.x, state_.p, options_, options_.direction);
-    }
-    Segment segment(state_.problem, options_, state_.x, state_.p, state_.tangent);
-    segment.base().complete = false;
-    Sample* sample = segment.at(0.0, true);
-    if (!sample) return lose("no solution at the start: " + segment.failure());
-    if (!state_.has_tangent) parameter(sample->it.p) = parameter(state_.p);
-    segment.add_events(*sample);
-    settle(segment, *sample);
-  } catch (const std::domain_error& error) {
-    return lose(std::string("no solution at the start: ") + error.what());
-  } catch (const std::runtime_error& error) {
-    return lose(std::string("no solution at the start: ") + error.what());
-  }
-  state_.points = 1;
-  state_.previous_tangent = state_.tangent;
-  remember_start();
-  queue_.push_back(here(PointType::start));
-}
-
 Point Walker::here(PointType type) const {
   Point point;
   point.problem = state_.problem;

@@ -39,6 +39,7 @@ struct Diagram {
   std::vector<std::string>
       lost;  ///< what failed: lost branches, arms that could not be started, limits reached
   std::vector<std::string> inadmissible;  ///< arms of branch points on which an event function is negative
+  std::vector<std::string> notes;         ///< what could not be looked for, and why
   bool stopped = false;                   ///< by should_stop
 };
 

@@ -47,6 +47,9 @@ class Segment {
   /// segment.
   Sample* at(double s, bool complete);
 
+  /// The completed solution at s = 0 where the base itself does not solve F = 0; null if Newton's method fails.
+  const Sample* corrected();
+
   /// The solution with the varied parameter fixed to exactly `value`, which lies between those of the two
   /// samples.
   Sample* at_parameter(double value, const Sample& lo, const Sample& hi, bool complete);

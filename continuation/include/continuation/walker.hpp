@@ -59,8 +59,17 @@ class Walker {
   const Options& options() const { return options_; }
 
  private:
-  void start();
   void advance();
+  // walker_start.cpp
+  void start();
+  bool start_regular(bool anyhow, std::string& failure);
+  bool start_singular();
+  bool start_at_given();
+  bool start_at_branch_point();
+  bool start_at_fold();
+  bool start_at_double_point();
+  void queue_branch_point(BranchPoint point);
+  void start_at(const Vector& x, const Vector& p, const Tangent& tangent);
   // walker_step.cpp
   bool advance_once(std::string& failure);
   bool leaves_branch(const Segment& segment, const Sample& end, std::string& failure) const;
