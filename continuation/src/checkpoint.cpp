@@ -33,7 +33,8 @@ void fields(auto& a, Is<Point> auto& point) {
   a("problem", point.problem), a("x", point.x), a("p", point.p), a("tangent", point.tangent);
   a("type", point.type), a("path_length", point.path_length), a("ds", point.ds);
   a("newton_iterations", point.newton_iterations), a("index", point.index);
-  a("index_after", point.index_after), a("label", point.label), a("event", point.event);
+  a("functions", point.functions), a("index_after", point.index_after), a("label", point.label),
+      a("event", point.event);
   a("before", point.before), a("after", point.after), a("note", point.note);
   a("precision", point.precision), a("bracket_lo", point.bracket_lo), a("bracket_hi", point.bracket_hi);
   a("multiplicity", point.multiplicity), a("branch_point", point.branch_point);

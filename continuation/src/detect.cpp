@@ -20,6 +20,14 @@ double width(Segment& segment, double lo, double hi) {
   return a && b ? std::abs(segment.parameter(*a) - segment.parameter(*b)) : hi - lo;
 }
 
+// What Newton's method left of the error of a sample, in the parameter: the last increment, shrunk as the ones before, or
+// by its own size where it was the first on a fresh factorisation.
+double solved_to(const Segment& segment, const Sample& sample) {
+  const CorrectorReport& report = sample.report;
+  const double contraction = std::min(1.0, std::max(report.contraction, report.increment));
+  return segment.options().parameter_scale * report.increment * contraction;
+}
+
 const EventFunction* find(const std::vector<EventFunction>& events, const std::string& name) {
   const auto it =
       std::find_if(events.begin(), events.end(), [&](const auto& event) { return event.name == name; });
@@ -126,7 +134,7 @@ std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, co
     event.sample = best ? *best : segment.base();
     event.lo = bracket.lo;
     event.hi = bracket.hi;
-    event.precision = width(segment, bracket.lo, bracket.hi);
+    event.precision = width(segment, bracket.lo, bracket.hi) + solved_to(segment, event.sample);
     const double narrow = 1e-5 * segment.options().parameter_scale;
     if (!bracket.converged && event.precision > narrow) {
       event.note = "bracket not converged: " + segment.failure();
@@ -139,6 +147,32 @@ std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, co
     top = below;
   }
   return found;
+}
+
+std::optional<Located> locate_function(Segment& segment, const UserFunction& function, const Sample& lo,
+                                       const Sample& hi) {
+  const auto value = [&](const Sample& sample) { return function.value(sample.it.x, sample.it.p); };
+  const double f_lo = value(lo), f_hi = value(hi);
+  if (!(f_lo != 0.0 && (f_hi == 0.0 || (f_lo < 0.0) != (f_hi < 0.0)))) return std::nullopt;
+  const Bracket bracket =
+      find_zero(lo.s, f_lo, hi.s, f_hi, tolerance(segment), [&](double s) -> std::optional<double> {
+        const Sample* sample = segment.at(s, false);
+        if (!sample) return std::nullopt;
+        return value(*sample);
+      });
+  const Sample* best = segment.at(bracket.best, true);
+  if (!best) return std::nullopt;
+  Located located;
+  located.type = PointType::function;
+  located.event = function.name;
+  located.s = bracket.best;
+  located.sample = *best;
+  located.lo = bracket.lo;
+  located.hi = bracket.hi;
+  located.precision = width(segment, bracket.lo, bracket.hi) + solved_to(segment, *best);
+  located.index = located.index_after = best->index;
+  if (!bracket.converged) located.note = "bracket not converged: " + segment.failure();
+  return located;
 }
 
 }  // namespace continuation

@@ -24,6 +24,8 @@ const char* name(PointType type) {
       return "end";
     case PointType::hopf:
       return "hopf";
+    case PointType::function:
+      return "function";
   }
   return "?";
 }
@@ -108,7 +110,14 @@ Point Walker::here(PointType type) const {
   point.type = type;
   point.index = point.index_after = state_.index;
   point.path_length = state_.path_length;
+  point.functions = function_values(point.x, point.p);
   return point;
+}
+
+std::vector<double> Walker::function_values(const Vector& x, const Vector& p) const {
+  std::vector<double> values;
+  for (const UserFunction& function : options_.functions) values.push_back(function.value(x, p));
+  return values;
 }
 
 void Walker::remember_start() {

@@ -65,8 +65,9 @@ bool Walker::advance_once(std::string& failure) {
   End reason;
   std::optional<Located> event;
   if (!shorten(segment, end, turn ? &*turn : nullptr, reason, event, failure)) return false;
-  if (turn && turn->s >= end->s) turn.reset();
   std::vector<Located> specials;
+  if (!find_functions(segment, end, reason, event, specials, failure)) return false;
+  if (turn && turn->s >= end->s) turn.reset();
   if (end->s > 0.0 &&
       !find_specials(segment, *end, turn ? &*turn : nullptr, event.has_value(), specials, failure))
     return false;
@@ -160,6 +161,7 @@ Point Walker::special(Segment& segment, const Located& located) {
   point.path_length = state_.path_length + located.s;
   point.ds = located.s;
   point.newton_iterations = located.sample.report.iterations;
+  point.functions = function_values(point.x, point.p);
   point.index = located.index;
   point.index_after = located.index_after;
   point.event = located.event;

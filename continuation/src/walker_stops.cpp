@@ -79,6 +79,25 @@ bool Walker::shorten(Segment& segment, Sample*& end, Located* turn, End& reason,
   return true;
 }
 
+// The user functions' zeros up to `end`, which moves to the first one that stops the branch.
+bool Walker::find_functions(Segment& segment, Sample*& end, End& reason, std::optional<Located>& event,
+                            std::vector<Located>& found, std::string& failure) {
+  for (const UserFunction& function : options_.functions) {
+    std::optional<Located> zero = locate_function(segment, function, segment.base(), *end);
+    if (!zero) continue;
+    if (function.stop) {
+      end = segment.at(zero->s, true);
+      if (!end) return failure = segment.failure(), false;
+      if (end->events.empty()) segment.add_events(*end);
+      reason = End{End::Kind::function, function.name + " is zero"};
+      event.reset();
+    }
+    found.push_back(std::move(*zero));
+  }
+  std::erase_if(found, [&](const Located& l) { return l.s > end->s; });
+  return true;
+}
+
 // Shortens the step to where p meets a stop value, if it does; false where that solution cannot be found.
 bool Walker::limit(Segment& segment, Sample*& end, Located* fold, End& reason) {
   const std::pair<double, const char*> stops[] = {

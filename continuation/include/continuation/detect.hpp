@@ -50,6 +50,10 @@ using EventSigns = std::map<std::string, int>;
 /// @return nullopt when no event changes sign. `note` is not empty if the bracket did not converge.
 std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, const EventSigns& signs);
 
+/// The zero of a user function between two samples where it has opposite signs; nullopt where it has not.
+std::optional<Located> locate_function(Segment& segment, const UserFunction& function, const Sample& lo,
+                                       const Sample& hi);
+
 /// What the index says of a step.
 struct Crossings {
   std::vector<Located> points;  ///< branch points and Hopf points, not sorted

@@ -80,6 +80,8 @@ class Walker {
   // walker_stops.cpp
   bool shorten(Segment& segment, Sample*& end, Located* turn, End& reason, std::optional<Located>& event,
                std::string& failure);
+  bool find_functions(Segment& segment, Sample*& end, End& reason, std::optional<Located>& event,
+                      std::vector<Located>& found, std::string& failure);
   bool limit(Segment& segment, Sample*& end, Located* fold, End& reason);
   Sample* close(Segment& segment, Sample& end, Located* fold);
   void remember_start();
@@ -88,6 +90,7 @@ class Walker {
   Point special(Segment& segment, const Located& located);
   /// The walker's own state as a point.
   Point here(PointType type) const;
+  std::vector<double> function_values(const Vector& x, const Vector& p) const;
   void adapt();
 
   // walker_transition.cpp
