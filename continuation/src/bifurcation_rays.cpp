@@ -12,8 +12,7 @@ namespace {
 class Circle {
  public:
   Circle(Problem& problem, const Options& options, const Vector& x, const Vector& p, double radius)
-      : options_(options),
-        p_(p),
+      : p_(p),
         radius_(radius),
         reduced_(problem, options, x, p, null_vectors(problem, x, p, 2, options), {options.parameter}) {}
 
@@ -33,7 +32,6 @@ class Circle {
   const Tangent& way() const { return way_; }
 
  private:
-  const Options& options_;
   Vector p_;
   double radius_, mu_ = 0.0;
   Reduced reduced_;

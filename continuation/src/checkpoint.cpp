@@ -19,6 +19,10 @@ concept Is = std::same_as<std::remove_const_t<T>, U>;
 
 void fields(auto& a, Is<Tangent> auto& tangent) { a("x", tangent.x), a("p", tangent.p); }
 
+void fields(auto& a, Is<SmallEigenvalues> auto& small) {
+  a("values", small.values), a("vectors", small.vectors), a("basis", small.basis);
+}
+
 void fields(auto& a, Is<EventFunction> auto& event) { a("name", event.name), a("value", event.value); }
 
 void fields(auto& a, Is<End> auto& end) { a("kind", end.kind), a("reason", end.reason); }
@@ -71,6 +75,7 @@ void fields(auto& a, Is<WalkState> auto& walk) {
   a("previous_tangent", walk.previous_tangent), a("step", walk.step), a("usual_step", walk.usual_step);
   a("after_rejection", walk.after_rejection), a("index", walk.index), a("determinant", walk.determinant);
   a("complex_index", walk.complex_index), a("breaking_index", walk.breaking_index);
+  a("small", walk.small);
   a("events", walk.events), a("previous_events", walk.previous_events), a("last_ds", walk.last_ds);
   a("signs", walk.signs), a("path_length", walk.path_length), a("points", walk.points);
   a("events_in_place", walk.events_in_place), a("started", walk.started);

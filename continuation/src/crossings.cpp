@@ -24,7 +24,9 @@ Count count_between(const Sample& lo, const Sample& hi) {
     if (lo.determinant == 0 || hi.determinant == 0) return {-1, 0};
     // det J has the sign of det [J F_p; t] times that of dp/ds.
     const double a = lo.determinant * lo.tangent.p, b = hi.determinant * hi.tangent.p;
-    return {(a < 0.0) != (b < 0.0) ? 1 : 0, 0};
+    const int odd = (a < 0.0) != (b < 0.0) ? 1 : 0;
+    const int seen = lo.small && hi.small ? sign_changes(*lo.small, *hi.small) : 0;
+    return {seen % 2 == odd ? std::max(seen, odd) : odd, 0};
   }
   const int real = hi.index - lo.index, pairs = (hi.complex_index - lo.complex_index) / 2;
   Count best{std::abs(real), pairs};

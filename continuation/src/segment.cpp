@@ -133,6 +133,11 @@ void Segment::complete(Sample& sample) {
   if (!sample.tangent.x.allFinite()) throw std::runtime_error("the tangent is not finite");
   sample.determinant = problem.determinant_sign();
   sample.index = options_.detect_branch_points ? problem.index(sample.it.x, sample.it.p) : -1;
+  if (options_.detect_branch_points && sample.index < 0 && sample.determinant != 0) {
+    const std::optional<SmallEigenvalues>& near = base().small;
+    sample.small =
+        small_eigenvalues(problem, sample.tangent.x, sample.tangent.p, near ? near->basis : Matrix());
+  }
   sample.complex_index = sample.index >= 0 ? problem.complex_index(sample.it.x, sample.it.p) : 0;
   sample.breaking_index =
       options_.detect_branch_points ? problem.breaking_index(sample.it.x, sample.it.p) : -1;

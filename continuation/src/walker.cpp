@@ -139,6 +139,7 @@ void Walker::settle(Segment& segment, Sample& sample) {
   state_.complex_index = sample.complex_index;
   state_.breaking_index = sample.breaking_index;
   state_.determinant = sample.determinant;
+  state_.small = sample.small;
   state_.previous_events = std::exchange(state_.events, sample.events);
   state_.path_length += sample.s;
   state_.last_ds = sample.s;

@@ -51,6 +51,7 @@ bool Walker::advance_once(std::string& failure) {
   base.complex_index = state_.complex_index;
   base.breaking_index = state_.breaking_index;
   base.determinant = state_.determinant;
+  base.small = state_.small;
   base.events = state_.events;
   Sample* end = segment.at(step_length_.current(), true);
   if (!end) return failure = segment.failure(), false;

@@ -88,6 +88,35 @@ BOOST_AUTO_TEST_CASE(every_branch_point_of_the_brusselator_on_an_interval) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(two_branch_points_in_one_step_without_an_index) {
+  // Modes of u'' + p (u − u³) = 0 are neutral at p = κ_k; det J is the same before and after two of them.
+  constexpr int n = 30;
+  constexpr double h = 1.0 / (n + 1);
+  auto problem = std::make_shared<AlgebraicProblem>(n, [](const Vector& u, const Vector& p) {
+    Vector f(n);
+    for (int i = 0; i < n; ++i) {
+      const double left = i > 0 ? u[i - 1] : 0.0, right = i + 1 < n ? u[i + 1] : 0.0;
+      f[i] = 0.01 * (2.0 * u[i] - left - right) / (h * h) - p[0] * (u[i] - std::pow(u[i], 3));
+    }
+    return f;
+  });
+  problem->index_known = false;
+  for (const double step_max : {0.3, 3.0}) {
+    Options options;
+    options.upper = 4.5;
+    options.step_max = step_max;
+    Walker walker(problem, Vector::Zero(n), vector({0.02}), options);
+    const auto found = of_type(walk(walker), PointType::branch_point);
+    BOOST_TEST_CONTEXT("step_max " << step_max) {
+      BOOST_REQUIRE_EQUAL(found.size(), 6u);
+      for (int k = 1; k <= 6; ++k) {
+        const double exact = 0.01 * std::pow(2.0 / h * std::sin(0.5 * k * M_PI * h), 2);
+        BOOST_TEST(std::abs(found[static_cast<std::size_t>(k - 1)].p[0] - exact) < 1e-8);
+      }
+    }
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
 
 }  // namespace

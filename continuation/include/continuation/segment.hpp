@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "continuation/corrector.hpp"
+#include "continuation/small_eigenvalues.hpp"
 #include "continuation/tangent.hpp"
 
 namespace continuation {
@@ -15,14 +16,15 @@ namespace continuation {
 /// A solution near the base of a segment, at path length s along the base's tangent.
 struct Sample {
   double s = 0.0;
-  Iterate it;                         ///< state, sum of increments since the base, parameters
-  Tangent tangent;                    ///< unit, oriented like the base's; empty until completed
-  bool complete = false;              ///< tangent, index and determinant are known
-  int index = -1;                     ///< Problem::index; -1: unknown
-  int complex_index = 0;              ///< Problem::complex_index
-  int breaking_index = -1;            ///< Problem::breaking_index; -1: unknown
-  int determinant = 0;                ///< sign of det [J F_p; base tangent]; 0: unknown
-  std::vector<EventFunction> events;  ///< empty unless asked for
+  Iterate it;                             ///< state, sum of increments since the base, parameters
+  Tangent tangent;                        ///< unit, oriented like the base's; empty until completed
+  bool complete = false;                  ///< tangent, index and determinant are known
+  int index = -1;                         ///< Problem::index; -1: unknown
+  int complex_index = 0;                  ///< Problem::complex_index
+  int breaking_index = -1;                ///< Problem::breaking_index; -1: unknown
+  int determinant = 0;                    ///< sign of det [J F_p; base tangent]; 0: unknown
+  std::optional<SmallEigenvalues> small;  ///< where the index is unknown
+  std::vector<EventFunction> events;      ///< empty unless asked for
   CorrectorReport report;
 };
 

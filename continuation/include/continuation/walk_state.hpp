@@ -20,6 +20,7 @@ struct WalkState {
   int index = -1, determinant = 0;                     ///< at (x, p); −1 and 0: unknown
   int complex_index = 0;                               ///< at (x, p)
   int breaking_index = -1;                             ///< at (x, p); −1: unknown
+  std::optional<SmallEigenvalues> small;               ///< at (x, p)
   std::vector<EventFunction> events, previous_events;  ///< at (x, p) and at the point before
   double last_ds = 0.0;                                ///< path length between the two
   EventSigns signs;
