@@ -35,7 +35,7 @@ int bratu() {
   Options options;
   options.lower = 0.5;
   options.residual_tolerance = 1e-6;
-  const auto problem = std::make_shared<Counting>(n, [](const Vector& u, const Vector& p) {
+  const auto problem = std::make_shared<Counting>(n, [=](const Vector& u, const Vector& p) {
     Vector f(n);
     for (int i = 0; i < n; ++i)
       f[i] = (2.0 * u[i] - (i > 0 ? u[i - 1] : 0.0) - (i + 1 < n ? u[i + 1] : 0.0)) / (h * h) -

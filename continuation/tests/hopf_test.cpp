@@ -92,7 +92,7 @@ BOOST_AUTO_TEST_CASE(two_branch_points_in_one_step_without_an_index) {
   // Modes of u'' + p (u − u³) = 0 are neutral at p = κ_k; det J is the same before and after two of them.
   constexpr int n = 30;
   constexpr double h = 1.0 / (n + 1);
-  auto problem = std::make_shared<AlgebraicProblem>(n, [](const Vector& u, const Vector& p) {
+  auto problem = std::make_shared<AlgebraicProblem>(n, [=](const Vector& u, const Vector& p) {
     Vector f(n);
     for (int i = 0; i < n; ++i) {
       const double left = i > 0 ? u[i - 1] : 0.0, right = i + 1 < n ? u[i + 1] : 0.0;

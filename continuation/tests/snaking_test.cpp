@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <iomanip>
 
 #include "algebraic_problem.hpp"
 #include "continuation/sparse_problem.hpp"
