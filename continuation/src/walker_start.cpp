@@ -71,9 +71,10 @@ bool Walker::start_regular(bool anyhow, std::string& failure) {
     segment.base().complete = false;
     Sample* sample = segment.at(0.0, true);
     if (!sample) return failure = segment.failure(), false;
-    // On a branch point the matrix is singular, and only the tangent that was given says which way to go.
-    if (!anyhow &&
-        inner(*problem, tangent, sample->tangent, options_.scales()) < std::cos(options_.max_angle))
+    // On a branch point the matrix is singular, and what it gives lies at right angles to the tangent: only the one that
+    // was given says which way to go.
+    constexpr double right_angle = 1e-3;
+    if (!anyhow && inner(*problem, tangent, sample->tangent, options_.scales()) < right_angle)
       return failure = "the state is singular", false;
     if (!state_.has_tangent) parameter(sample->it.p) = parameter(state_.p);
     segment.add_events(*sample);
