@@ -20,12 +20,15 @@ double width(Segment& segment, double lo, double hi) {
   return a && b ? std::abs(segment.parameter(*a) - segment.parameter(*b)) : hi - lo;
 }
 
-// What Newton's method left of the error of a sample, in the parameter: the last increment, shrunk as the ones before, or
-// by its own size where it was the first on a fresh factorisation.
+// What Newton's method left of the error of a sample, in the parameter: the last increment where it was too small to be
+// added; else shrunk as the ones before, or by its own size where it was the first on a fresh factorisation.
 double solved_to(const Segment& segment, const Sample& sample) {
   const CorrectorReport& report = sample.report;
-  const double contraction = std::min(1.0, std::max(report.contraction, report.increment));
-  return segment.options().parameter_scale * report.increment * contraction;
+  const Options& options = segment.options();
+  const double left = StoppingRule(options).negligible(report.increment)
+                          ? 1.0
+                          : std::min(1.0, std::max(report.contraction, report.increment));
+  return options.parameter_scale * report.increment * left;
 }
 
 const EventFunction* find(const std::vector<EventFunction>& events, const std::string& name) {

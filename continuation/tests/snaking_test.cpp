@@ -1,5 +1,6 @@
 // Localised patterns of the quadratic-cubic Swift-Hohenberg equation: folds close to each other in p, a loop that turns
 // back where it crosses another branch (Burke and Knobloch 2007, Chaos 17, 037102).
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -16,9 +17,10 @@ using namespace continuation::testing;
 
 constexpr int n = 400;
 
-/// −(p u − (1 + ∂²)² u + 1.6 u² − u³) on [0, L], mirrored at both ends; the second variation of an energy.
-std::shared_ptr<SparseProblem> swift_hohenberg(double length) {
-  using Sparse = SparseProblem::Sparse;
+using Sparse = SparseProblem::Sparse;
+
+/// (1 + ∂²)² on [0, length], mirrored at both ends.
+Sparse linear_part(double length) {
   const double h = length / n;
   std::vector<Eigen::Triplet<double>> entries;
   for (int i = 0; i < n; ++i) {
@@ -30,36 +32,53 @@ std::shared_ptr<SparseProblem> swift_hohenberg(double length) {
   }
   Sparse a(n, n);
   a.setFromTriplets(entries.begin(), entries.end());
-  const Sparse linear = a * a;
+  return a * a;
+}
+
+/// −(p u − (1 + ∂²)² u + 1.8 u² − u³), the gradient of an energy.
+std::shared_ptr<SparseProblem> swift_hohenberg(const Sparse& linear) {
   return std::make_shared<SparseProblem>(
       n,
       [=](const Vector& u, const Vector& p) {
         const auto v = u.array();
-        return Vector((linear * u).array() - p[0] * v - 1.6 * v * v + v * v * v);
+        return Vector((linear * u).array() - p[0] * v - 1.8 * v * v + v * v * v);
       },
       [=](const Vector& u, const Vector& p) {
         Sparse j = linear;
-        j.diagonal().array() += -p[0] - 3.2 * u.array() + 3.0 * u.array().square();
+        j.diagonal().array() += -p[0] - 3.6 * u.array() + 3.0 * u.array().square();
         return j;
       },
       true);
+}
+
+/// A few rolls at the left end, relaxed by the gradient's flow (half implicit) to a stable state.
+Vector localised(const Sparse& linear, double length, double p) {
+  Vector u(n);
+  for (int i = 0; i < n; ++i) {
+    const double x = (i + 0.5) * length / n;
+    u[i] = x < 20.0 ? 1.3 * std::cos(x) : 0.0;
+  }
+  constexpr double dt = 0.5;
+  Sparse implicit = dt * linear;
+  implicit.diagonal().array() += 1.0 - dt * p;
+  const Eigen::SimplicialLDLT<Sparse> solver(implicit);
+  for (int k = 0; k < 400; ++k)
+    u = solver.solve(Vector(u.array() + dt * (1.8 * u.array().square() - u.array().cube())));
+  return u;
 }
 
 BOOST_AUTO_TEST_SUITE(snaking)
 
 BOOST_AUTO_TEST_CASE(every_fold_of_the_loop_and_nothing_else_at_every_step) {
   const double length = 60.0;
-  Vector u(n);
-  for (int i = 0; i < n; ++i) {
-    const double x = (i + 0.5) * length / n;
-    u[i] = 1.3 * std::exp(-x * x / 100.0) * std::cos(x);
-  }
+  const Sparse linear = linear_part(length);
+  const Vector u = localised(linear, length, -0.3);
   for (const double step_max : {0.02, 0.05, 0.1}) {
     Options options;
     options.step = 0.01;
     options.step_max = step_max;
     options.max_points = 6000;
-    Walker walker(swift_hohenberg(length), u, vector({-0.25}), options);
+    Walker walker(swift_hohenberg(linear), u, vector({-0.3}), options);
     const auto points = walk(walker);
     const auto folds = of_type(points, PointType::fold), crossings = of_type(points, PointType::branch_point);
     BOOST_TEST_MESSAGE("step_max " << step_max << ": " << points.size() << " points, " << folds.size()
