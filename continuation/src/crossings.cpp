@@ -86,13 +86,16 @@ class Search {
       }
       if (depth >= 4 && multiplicity % 2 == 0 && regular(lo, hi)) return;
     }
-    // One branch point is found early or not at all; of several each must be shut in by itself first.
-    const int patience = multiplicity == 1 ? 4 : 16;
-    const bool refuse = may_refuse_ && hi.s < edge_;
-    const Sample* middle = refuse && depth >= patience ? nullptr : halfway(lo, hi, depth);
-    if (!middle && refuse) {
+    // On a branch the two ends come together as fast as the interval shrinks; on two branches they stay apart.
+    if (may_refuse_ && hi.s < edge_ && apart(lo, hi)) {
+      found.refusal = "the corrector has left the branch: the index changes where no branch point is";
+      return;
+    }
+    const Sample* middle = halfway(lo, hi, depth);
+    constexpr double narrow = 1e-3;  // right on a singular point the solve may fail, elsewhere it does not
+    if (!middle && may_refuse_ && hi.s < edge_ && hi.s - lo.s > narrow * segment_.reach()) {
       found.refusal =
-          "the index changes and no branch point is there: " + (why.empty() ? segment_.failure() : why);
+          "the index changes, and the branch in between cannot be solved for: " + segment_.failure();
       return;
     }
     if (!middle) return found.points.push_back(unpolished(segment_, lo, hi, multiplicity, why));
@@ -145,6 +148,19 @@ class Search {
     if (!turns(lo, hi)) return change;
     // A fold changes the index by one; unchanged across a turn, the side branch of a pitchfork goes through it.
     return change == 1 ? 0 : std::max(change, 1);
+  }
+
+  /// Is the one end farther from the other's tangent than a circle that turns by max_angle in between would be?
+  bool apart(const Sample& lo, const Sample& hi) const {
+    const double rounding = 1e3 * options_.newton_tolerance;
+    if (hi.s - lo.s < rounding) return false;
+    const Problem& problem = *segment_.problem();
+    Tangent way{hi.it.u - lo.it.u, hi.it.y[0] - lo.it.y[0]};
+    const double along = inner(problem, way, lo.tangent, options_.scales());
+    way.x -= along * lo.tangent.x;
+    way.p -= along * lo.tangent.p;
+    const double off = std::sqrt(inner(problem, way, way, options_.scales()));
+    return off > std::tan(0.5 * options_.max_angle) * std::abs(along);
   }
 
   const Sample* halfway(const Sample& lo, const Sample& hi, int depth) {
