@@ -122,17 +122,19 @@ class Search {
     found.points.push_back(bracketed(segment_, *lo, *hi, PointType::hopf));
   }
 
-  /// Is the turn at s a fold, given what was found between samples on its two sides? An odd number of eigenvalues goes
+  /// Is the turn a fold, given what was found between samples on its two sides? An odd number of eigenvalues goes
   /// through zero there; on the side branch of a pitchfork, which turns at its branch point, an even one.
-  bool fold(const Sample& lo, const Sample& hi, double s) {
+  bool fold(const Sample& lo, const Sample& hi, const Located& turn) {
     const int zeros = zeros_between(lo, hi);
     if (zeros < 0 || zeros % 2 == 1) return true;
+    // The bracket of a turn ends wide where Newton's method fails close to a branch point.
+    const double slack = together(segment_);
     for (const Located& point : found.points) {
       if (point.type != PointType::branch_point || point.s < lo.s || point.s > hi.s) continue;
-      if (std::abs(point.s - s) < together(segment_)) return false;
+      if (point.s > turn.lo - slack && point.s < turn.hi + slack) return false;
       // Apart from each other the two enclose an interval where the index has the other parity.
-      const Sample* middle = segment_.at(0.5 * (point.s + s), true);
-      return middle && zeros_between(*middle, point.s < s ? hi : lo) % 2 == 1;
+      const Sample* middle = segment_.at(0.5 * (point.s + turn.s), true);
+      return middle && zeros_between(*middle, point.s < turn.s ? hi : lo) % 2 == 1;
     }
     return false;
   }
@@ -263,7 +265,7 @@ Crossings locate_crossings(Segment& segment, const Sample& lo, const Sample& hi,
   const Sample& b = after && after->s < hi.s ? *after : hi;
   search.branch_points(lo, a);
   search.branch_points(a, b);
-  if (search.found.refusal.empty()) search.found.fold = search.fold(a, b, turn->s);
+  if (search.found.refusal.empty()) search.found.fold = search.fold(a, b, *turn);
   search.branch_points(b, hi);
   search.hopf_points(lo, hi);
   return std::move(search.found);
