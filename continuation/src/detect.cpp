@@ -28,7 +28,8 @@ double solved_to(const Segment& segment, const Sample& sample) {
   const double left = StoppingRule(options).negligible(report.increment)
                           ? 1.0
                           : std::min(1.0, std::max(report.contraction, report.increment));
-  return options.parameter_scale * report.increment * left;
+  constexpr double oblique = 2.0;  // a function's zero may cut the branch at an angle
+  return options.parameter_scale * oblique * report.increment * left;
 }
 
 const EventFunction* find(const std::vector<EventFunction>& events, const std::string& name) {
