@@ -2,42 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <stdexcept>
 
 #include "continuation/detect.hpp"
+#include "crossing_count.hpp"
 
 namespace continuation {
 namespace {
-
-/// Eigenvalues that crossed the imaginary axis between two samples, net.
-struct Count {
-  int real = 0;  ///< through zero, without sign; −1: unknown
-  int hopf = 0;  ///< complex pairs
-};
-
-/// Real zeros z, pairs through the imaginary axis h and pairs of negative real part that turned complex, c, obey
-/// Δreal = z − 2c, Δcomplex = 2h + 2c: the least eventful solution is taken.
-Count count_between(const Sample& lo, const Sample& hi) {
-  if (lo.index < 0 || hi.index < 0) {
-    if (lo.determinant == 0 || hi.determinant == 0) return {-1, 0};
-    // det J has the sign of det [J F_p; t] times that of dp/ds.
-    const double a = lo.determinant * lo.tangent.p, b = hi.determinant * hi.tangent.p;
-    const int odd = (a < 0.0) != (b < 0.0) ? 1 : 0;
-    const int seen = lo.small && hi.small ? sign_changes(*lo.small, *hi.small) : 0;
-    return {seen % 2 == odd ? std::max(seen, odd) : odd, 0};
-  }
-  const int real = hi.index - lo.index, pairs = (hi.complex_index - lo.complex_index) / 2;
-  Count best{std::abs(real), pairs};
-  int fewest = std::abs(real) + std::abs(pairs);
-  for (int turned = -std::abs(pairs) - 1; turned <= std::abs(pairs) + 1; ++turned) {
-    const Count count{std::abs(real + 2 * turned), pairs - turned};
-    const int events = count.real + std::abs(count.hopf) + std::abs(turned);
-    if (events < fewest) best = count, fewest = events;
-  }
-  return best;
-}
 
 int zeros_between(const Sample& lo, const Sample& hi) { return count_between(lo, hi).real; }
 
