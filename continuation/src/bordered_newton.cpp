@@ -64,12 +64,12 @@ bool StoppingRule::slow(double length) const {
 
 bool StoppingRule::last(double length, double residual, double state_size, bool fresh) {
   const double tolerance = options_.newton_tolerance;
+  const double allowed = options_.residual_tolerance * options_.residual_scale;
   // What rounding may leave where the state has large entries; taken only once corrections no longer shrink.
   const double rounding = tolerance * std::max(1.0, state_size);
   // Where F is all rounding, corrections are what nearly singular equations make of it, and no other state is better.
   constexpr double rounded_residual = 1e-2, visible = 1e-6;
-  const bool exhausted =
-      fresh && residual <= rounded_residual * options_.residual_tolerance && length <= visible;
+  const bool exhausted = fresh && residual <= rounded_residual * allowed && length <= visible;
   bool stagnant = false;
   if (taken_ > 0) {
     // A metric that leaves out some unknowns (forces, say) may hold small corrections before larger ones on a way that
@@ -87,7 +87,7 @@ bool StoppingRule::last(double length, double residual, double state_size, bool 
   ++taken_;
   previous_ = length;
   previous_residual_ = residual;
-  return small && (rounded || residual <= options_.residual_tolerance);
+  return small && (rounded || residual <= allowed);
 }
 
 namespace {

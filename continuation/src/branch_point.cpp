@@ -11,18 +11,19 @@ namespace {
 using Vector2 = Eigen::Vector2d;
 using Matrix2 = Eigen::Matrix2d;
 
-// The reduced function of one kernel direction and one parameter, as a gradient (y_λ, y_α) in z = (λ, α).
+// The reduced function of one kernel direction and one parameter, as a gradient (y_λ, y_α) in z = (λ, α), λ in its
+// unit.
 class Gradient {
  public:
-  Gradient(Reduced& reduced, Vector p, Eigen::Index parameter)
-      : reduced_(reduced), p_(std::move(p)), parameter_(parameter) {}
+  Gradient(Reduced& reduced, Vector p, const Options& options)
+      : reduced_(reduced), p_(std::move(p)), parameter_(options.parameter), scale_(options.parameter_scale) {}
 
   std::optional<Vector2> operator()(const Vector2& z) {
-    p_[parameter_] = z[0];
+    p_[parameter_] = z[0] * scale_;
     std::optional<Reduced::Value> value = reduced_.at(p_, Vector::Constant(1, z[1]));
     if (!value) return std::nullopt;
     value_ = std::move(*value);
-    return Vector2(value_.y_parameter(0, 0), value_.y_alpha(0, 0));
+    return Vector2(value_.y_parameter(0, 0) * scale_, value_.y_alpha(0, 0));
   }
 
   std::optional<Matrix2> hessian(const Vector2& z, const Vector2& at_z, const Vector2& h) {
@@ -57,6 +58,7 @@ class Gradient {
   Reduced& reduced_;
   Vector p_;
   Eigen::Index parameter_;
+  double scale_;
   Reduced::Value value_;
 };
 
@@ -73,16 +75,15 @@ std::vector<Vector2> isotropic_directions(const Matrix2& h) {
   return directions;
 }
 
-std::optional<BranchPoint> polish_simple(Segment& segment, const Sample& lo, const Sample& hi,
-                                         Reduced& reduced, std::string& why) {
-  Problem& problem = *segment.problem();
-  const Options& options = segment.options();
-  const Eigen::Index parameter = options.parameter;
-  const double scale = options.parameter_scale, width = hi.s - lo.s;
-  Gradient gradient(reduced, lo.it.p, parameter);
-  Vector2 z(lo.it.p[parameter], 0.0);
+// `width`: how far away the point may be; `along`: the tangent of the branch followed, of any length.
+std::optional<BranchPoint> polish_simple(Problem& problem, const Options& options, const Vector& p,
+                                         double width, const Tangent* along, Reduced& reduced,
+                                         std::string& why) {
+  const double scale = options.parameter_scale;
+  Gradient gradient(reduced, p, options);
+  Vector2 z(p[options.parameter] / scale, 0.0);
   const double h = std::clamp(0.05 * width, 1e-6, 1e-3);
-  const Vector2 steps(h * scale, h);
+  const Vector2 steps(h, h);
   const double tolerance = options.location_tolerance * std::max(1.0, std::abs(z[0]));
   Matrix2 hessian;
   double previous = std::numeric_limits<double>::infinity();
@@ -97,7 +98,7 @@ std::optional<BranchPoint> polish_simple(Segment& segment, const Sample& lo, con
         return why = "no two branches cross here (the reduced equation is definite)", std::nullopt;
     }
     const Vector2 dz = -hessian.inverse() * *value;
-    const double size = std::hypot(dz[0] / scale, dz[1]);
+    const double size = dz.norm();
     if (!(size < 4.0 * width + 1e-6)) return why = "the branch point equations lead away", std::nullopt;
     z += dz;
     const bool small = std::abs(dz[0]) <= tolerance && size <= 1e-7 + tolerance;
@@ -113,19 +114,21 @@ std::optional<BranchPoint> polish_simple(Segment& segment, const Sample& lo, con
       point.p = at.it.p;
       point.u = at.it.u;
       point.precision =
-          std::max(std::abs(dz[0]), 4.0 * std::numeric_limits<double>::epsilon() * std::abs(z[0]));
+          scale * std::max(std::abs(dz[0]), 4.0 * std::numeric_limits<double>::epsilon() * std::abs(z[0]));
       point.polished = true;
       point.null = reduced.refreshed(at);
       const std::vector<Vector2> directions = isotropic_directions(hessian);
       if (directions.empty())
         return why = "no two branches cross here (the reduced equation is definite)", std::nullopt;
       for (const Vector2& d : directions) {
-        Tangent tangent{at.x_parameter.col(0) * d[0] + at.x_alpha.col(0) * d[1], d[0]};
-        normalise(problem, tangent, scale);
+        Tangent tangent{at.x_parameter.col(0) * (scale * d[0]) + at.x_alpha.col(0) * d[1], scale * d[0]};
+        normalise(problem, tangent, options.scales());
         point.tangents.push_back(std::move(tangent));
       }
-      const auto along = [&](const Tangent& t) { return std::abs(inner(problem, t, lo.tangent, scale)); };
-      if (along(point.tangents[1]) > along(point.tangents[0]))
+      const auto share = [&](const Tangent& t) {
+        return std::abs(along ? inner(problem, t, *along, options.scales()) : t.p);
+      };
+      if (share(point.tangents[1]) > share(point.tangents[0]))
         std::swap(point.tangents[0], point.tangents[1]);
       return point;
     }
@@ -150,7 +153,7 @@ std::optional<BranchPoint> polish_multiple(Segment& segment, const Sample& lo, c
   const Matrix weight = at_b->y_alpha - at_a->y_alpha;
   const double slope = weight.norm() / span;
   double f_a = weight.cwiseProduct(at_a->y_alpha).sum(), f_b = weight.cwiseProduct(at_b->y_alpha).sum();
-  const double tolerance = options.location_tolerance * std::max(1.0, std::abs(a));
+  const double tolerance = options.location_tolerance * std::max(options.parameter_scale, std::abs(a));
   double previous = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 20; ++k) {
     if (f_a == f_b) return why = "the secant method stalls", std::nullopt;
@@ -166,7 +169,7 @@ std::optional<BranchPoint> polish_multiple(Segment& segment, const Sample& lo, c
     const bool stalled = increment <= tolerance && increment > 0.3 * previous;
     if (increment <= 1e-2 * tolerance || f_b == 0.0 || stalled) {
       const double spread = at_c->y_alpha.norm() / slope;
-      if (spread > 1e-6 * std::max(1.0, std::abs(c)))
+      if (spread > 1e-6 * std::max(options.parameter_scale, std::abs(c)))
         return why = "several branch points close together", std::nullopt;
       BranchPoint point;
       point.polished = true;
@@ -189,19 +192,21 @@ std::optional<BranchPoint> polish_branch_point(Segment& segment, const Sample& l
                                                int multiplicity, std::string& why) {
   Problem& problem = *segment.problem();
   try {
-    NullVectors null = null_vectors(problem, lo.it.x, lo.it.p, multiplicity);
+    NullVectors null = null_vectors(problem, lo.it.x, lo.it.p, multiplicity, segment.options());
     // α = 0 is the branch only if φ spans the kernel exactly: refreshed until the point no longer moves.
     double last = std::numeric_limits<double>::quiet_NaN();
     for (int round = 0; round < 5; ++round) {
       Reduced reduced(problem, segment.options(), lo.it.x, lo.it.p, null, {segment.options().parameter});
-      std::optional<BranchPoint> point = multiplicity == 1
-                                             ? polish_simple(segment, lo, hi, reduced, why)
-                                             : polish_multiple(segment, lo, hi, reduced, multiplicity, why);
+      std::optional<BranchPoint> point =
+          multiplicity == 1
+              ? polish_simple(problem, segment.options(), lo.it.p, hi.s - lo.s, &lo.tangent, reduced, why)
+              : polish_multiple(segment, lo, hi, reduced, multiplicity, why);
       if (!point) return point;
       problem.settle(point->x, point->p);
       if (multiplicity == 1) return point;
       const double found = point->p[segment.options().parameter], moved = std::abs(found - last);
-      if (moved <= segment.options().location_tolerance * std::max(1.0, std::abs(found))) {
+      if (moved <= segment.options().location_tolerance *
+                       std::max(segment.options().parameter_scale, std::abs(found))) {
         point->precision = std::max(point->precision, moved);
         return point;
       }
@@ -209,6 +214,19 @@ std::optional<BranchPoint> polish_branch_point(Segment& segment, const Sample& l
       null = point->null;
     }
     why = "the kernel and the branch are not separated by symmetry";
+  } catch (const std::domain_error& error) {
+    why = error.what();
+  } catch (const std::runtime_error& error) {
+    why = error.what();
+  }
+  return std::nullopt;
+}
+
+std::optional<BranchPoint> branch_point_at(Problem& problem, const Options& options, const Vector& x,
+                                           const Vector& p, double width, std::string& why) {
+  try {
+    Reduced reduced(problem, options, x, p, null_vectors(problem, x, p, 1, options), {options.parameter});
+    return polish_simple(problem, options, p, width, nullptr, reduced, why);
   } catch (const std::domain_error& error) {
     why = error.what();
   } catch (const std::runtime_error& error) {

@@ -5,17 +5,19 @@
 #include <stdexcept>
 #include <utility>
 
+#include "continuation/bifurcation_rays.hpp"
+
 namespace continuation {
 
-bool same_fingerprint(const Vector& a, const Vector& b, double tolerance) {
+bool same_fingerprint(const Vector& a, const Vector& b, double tolerance, double unit) {
   if (a.size() != b.size()) return false;
   const double n = std::max<double>(1.0, static_cast<double>(a.size()));
-  return (a - b).norm() <= tolerance * std::max(std::sqrt(n), a.norm());
+  return (a - b).norm() <= tolerance * std::max(unit * std::sqrt(n), a.norm());
 }
 
 std::optional<Arm> start_arm(const Point& branch_point, const Tangent& direction, double epsilon,
                              const Options& options, ArmFailure& failure) {
-  const double scale = options.parameter_scale;
+  const Scales scale = options.scales();
   try {
     Arm arm;
     arm.problem = branch_point.problem->clone();
@@ -48,29 +50,50 @@ std::optional<Arm> start_arm(const Point& branch_point, const Tangent& direction
   return std::nullopt;
 }
 
+namespace {
+
+/// Ways that leave a branch point; one that leads away both ways stands once, unless all of them are rays.
+struct Directions {
+  std::vector<Tangent> list;
+  bool rays = false;
+};
+
+Directions directions_from(const Point& at, const Options& options) {
+  Directions directions;
+  Problem& problem = *at.problem;
+  if (at.branch_point && at.branch_point->tangents.size() == 2) {
+    directions.list.push_back(at.branch_point->tangents[1]);
+  } else {
+    const Matrix kernel =
+        at.branch_point ? at.branch_point->null.right
+                        : null_vectors(problem, at.x, at.p, std::max(1, at.multiplicity), options).right;
+    std::vector<Vector> named = problem.kernel_directions(at.x, at.p, kernel);
+    if (named.empty() && kernel.cols() == 2) directions.list = bifurcation_rays(problem, options, at.x, at.p);
+    directions.rays = !directions.list.empty();
+    if (named.empty() && !directions.rays)
+      for (Eigen::Index i = 0; i < kernel.cols(); ++i) named.emplace_back(kernel.col(i));
+    for (Vector& d : named) directions.list.push_back(Tangent{std::move(d), 0.0});
+  }
+  for (Tangent& direction : directions.list) normalise(problem, direction, options.scales());
+  return directions;
+}
+
+}  // namespace
+
 Arms switch_branch(const Point& branch_point, const Options& options) {
   Arms arms;
-  std::vector<Tangent> directions;
+  Directions found;
   try {
-    Problem& problem = *branch_point.problem;
-    if (branch_point.branch_point && branch_point.branch_point->tangents.size() == 2) {
-      directions.push_back(branch_point.branch_point->tangents[1]);
-    } else {
-      const Matrix kernel = branch_point.branch_point ? branch_point.branch_point->null.right
-                                                      : null_vectors(problem, branch_point.x, branch_point.p,
-                                                                     std::max(1, branch_point.multiplicity))
-                                                            .right;
-      for (Vector& d : problem.kernel_directions(branch_point.x, branch_point.p, kernel))
-        directions.push_back(Tangent{std::move(d), 0.0});
-    }
-    for (Tangent& direction : directions) normalise(problem, direction, options.parameter_scale);
+    found = directions_from(branch_point, options);
   } catch (const std::domain_error& error) {
     arms.failures.emplace_back(error.what());
   } catch (const std::runtime_error& error) {
     arms.failures.emplace_back(error.what());
   }
+  const std::vector<Tangent>& directions = found.list;
   for (std::size_t i = 0; i < directions.size(); ++i) {
     for (const int sign : {1, -1}) {
+      if (found.rays && sign < 0) continue;
       const Tangent direction{sign * directions[i].x, sign * directions[i].p};
       std::optional<Arm> arm;
       ArmFailure failure;
@@ -86,8 +109,10 @@ Arms switch_branch(const Point& branch_point, const Options& options) {
       }
       const Vector fingerprint = arm->problem->fingerprint(arm->x, arm->p);
       const auto twin = std::find_if(arms.arms.begin(), arms.arms.end(), [&](const Arm& other) {
-        return other.epsilon == arm->epsilon && same_fingerprint(other.p, arm->p, 1e-7) &&
-               same_fingerprint(other.problem->fingerprint(other.x, other.p), fingerprint, 1e-7);
+        return other.epsilon == arm->epsilon &&
+               same_fingerprint(other.p, arm->p, 1e-7, options.parameter_scale) &&
+               same_fingerprint(other.problem->fingerprint(other.x, other.p), fingerprint, 1e-7,
+                                options.state_scale);
       });
       if (twin == arms.arms.end()) {
         arms.arms.push_back(std::move(*arm));

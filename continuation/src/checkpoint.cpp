@@ -9,7 +9,7 @@ namespace continuation {
 
 namespace {
 
-constexpr int format = 3;  // of the data; others are refused
+constexpr int format = 4;  // of the data; others are refused
 
 }  // namespace
 
@@ -18,6 +18,10 @@ template <class T, class U>
 concept Is = std::same_as<std::remove_const_t<T>, U>;
 
 void fields(auto& a, Is<Tangent> auto& tangent) { a("x", tangent.x), a("p", tangent.p); }
+
+void fields(auto& a, Is<SmallEigenvalues> auto& small) {
+  a("values", small.values), a("vectors", small.vectors), a("basis", small.basis);
+}
 
 void fields(auto& a, Is<EventFunction> auto& event) {
   a("name", event.name), a("value", event.value), a("imminent", event.imminent), a("passes", event.passes);
@@ -35,7 +39,8 @@ void fields(auto& a, Is<Point> auto& point) {
   a("problem", point.problem), a("x", point.x), a("p", point.p), a("tangent", point.tangent);
   a("type", point.type), a("path_length", point.path_length), a("ds", point.ds);
   a("newton_iterations", point.newton_iterations), a("index", point.index);
-  a("index_after", point.index_after), a("label", point.label), a("event", point.event);
+  a("functions", point.functions), a("index_after", point.index_after), a("label", point.label),
+      a("event", point.event);
   a("before", point.before), a("after", point.after), a("note", point.note);
   a("precision", point.precision), a("bracket_lo", point.bracket_lo), a("bracket_hi", point.bracket_hi);
   a("multiplicity", point.multiplicity), a("branch_point", point.branch_point);
@@ -55,7 +60,7 @@ void fields(auto& a, Is<SpecialPoint> auto& special) {
 
 void fields(auto& a, Is<Diagram> auto& diagram) {
   a("branches", diagram.branches), a("specials", diagram.specials), a("lost", diagram.lost);
-  a("inadmissible", diagram.inadmissible);
+  a("inadmissible", diagram.inadmissible), a("notes", diagram.notes);
 }
 
 void fields(auto& a, Is<Arm> auto& arm) {
@@ -72,7 +77,8 @@ void fields(auto& a, Is<WalkState> auto& walk) {
   a("problem", walk.problem), a("x", walk.x), a("p", walk.p), a("tangent", walk.tangent);
   a("previous_tangent", walk.previous_tangent), a("step", walk.step), a("usual_step", walk.usual_step);
   a("after_rejection", walk.after_rejection), a("index", walk.index), a("determinant", walk.determinant);
-  a("breaking_index", walk.breaking_index);
+  a("complex_index", walk.complex_index), a("breaking_index", walk.breaking_index);
+  a("small", walk.small);
   a("events", walk.events), a("previous_events", walk.previous_events), a("last_ds", walk.last_ds);
   a("signs", walk.signs), a("noted", walk.noted), a("noted_at", walk.noted_at);
   a("path_length", walk.path_length), a("points", walk.points);
@@ -86,6 +92,7 @@ void fields(auto& a, Is<WalkState> auto& walk) {
 void fields(auto& a, Is<DiagramState> auto& state) {
   a("diagram", state.diagram), a("pending", state.pending), a("first_special", state.first_special);
   a("folds", state.folds), a("branch_points", state.branch_points), a("events", state.events);
+  a("hopf_points", state.hopf_points);
 }
 
 nlohmann::json encode(const DiagramState& state, const ProblemCodec& codec) {

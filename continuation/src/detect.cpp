@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <limits>
 
 namespace continuation {
 namespace {
 
 double tolerance(Segment& segment) {
-  return segment.options().location_tolerance * std::max(1.0, std::abs(segment.parameter(segment.base())));
+  const Options& options = segment.options();
+  return options.location_tolerance *
+         std::max(1.0, std::abs(segment.parameter(segment.base())) / options.parameter_scale);
 }
 
 // Precision of the parameter from the parameter's values at the bracket's ends.
@@ -16,6 +18,18 @@ double width(Segment& segment, double lo, double hi) {
   const Sample* a = segment.at(lo, false);
   const Sample* b = segment.at(hi, false);
   return a && b ? std::abs(segment.parameter(*a) - segment.parameter(*b)) : hi - lo;
+}
+
+// What Newton's method left of the error of a sample, in the parameter: the last increment where it was too small to be
+// added; else shrunk as the ones before, or by its own size where it was the first on a fresh factorisation.
+double solved_to(const Segment& segment, const Sample& sample) {
+  const CorrectorReport& report = sample.report;
+  const Options& options = segment.options();
+  const double left = StoppingRule(options).negligible(report.increment)
+                          ? 1.0
+                          : std::min(1.0, std::max(report.contraction, report.increment));
+  constexpr double oblique = 2.0;  // a function's zero may cut the branch at an angle
+  return options.parameter_scale * oblique * report.increment * left;
 }
 
 const EventFunction* find(const std::vector<EventFunction>& events, const std::string& name) {
@@ -31,10 +45,11 @@ int sign_of(const EventSigns& signs, const std::string& name) {
 
 }  // namespace
 
-bool is_vertical(const Sample& lo, const Sample& hi) {
+bool is_vertical(const Segment& segment, const Sample& lo, const Sample& hi) {
+  const double unit = segment.options().parameter_scale;
   constexpr double rounding = 1e-9, slope = 1e-3;
-  return (hi.it.p - lo.it.p).cwiseAbs().maxCoeff() <= rounding * std::abs(hi.s - lo.s) &&
-         std::max(std::abs(lo.tangent.p), std::abs(hi.tangent.p)) < slope;
+  return (hi.it.p - lo.it.p).cwiseAbs().maxCoeff() <= rounding * unit * std::abs(hi.s - lo.s) &&
+         std::max(std::abs(lo.tangent.p), std::abs(hi.tangent.p)) < slope * unit;
 }
 
 Located locate_fold(Segment& segment, const Sample& lo, const Sample& hi) {
@@ -52,13 +67,29 @@ Located locate_fold(Segment& segment, const Sample& lo, const Sample& hi) {
   fold.lo = bracket.lo;
   fold.hi = bracket.hi;
   // p is flat at a fold: its error is half the slope at the end times the bracket.
-  const double slope = std::max(std::abs(fold.sample.tangent.p), bracket.hi - bracket.lo);
-  fold.precision =
-      std::max(slope * (bracket.hi - bracket.lo), 1e-15 * std::abs(segment.parameter(fold.sample)));
+  const double unit = segment.options().parameter_scale;
+  const double slope = std::max(std::abs(fold.sample.tangent.p), unit * (bracket.hi - bracket.lo));
+  fold.precision = slope * (bracket.hi - bracket.lo);
   fold.index = lo.index;
   fold.index_after = hi.index;
   if (!bracket.converged) fold.note = "bracket not converged: " + segment.failure();
   return fold;
+}
+
+bool slope_jumps(const Sample& lo, const Sample& hi, const Located& fold) {
+  // A slope that is continuous is as small as the bracket, or what rounding leaves of it near a branch point.
+  constexpr double jump = 0.01;
+  return std::abs(fold.sample.tangent.p) > jump * std::abs(hi.tangent.p - lo.tangent.p) && fold.note.empty();
+}
+
+void sharpen_fold(Segment& segment, Located& fold) {
+  const Correction left = segment.sharpen(fold.sample);
+  // p is stationary along the branch: there an error of the state counts by its square.
+  const double rounding =
+      4.0 * std::numeric_limits<double>::epsilon() * std::abs(segment.parameter(fold.sample));
+  fold.precision =
+      std::max({fold.precision,
+                left.parameter + segment.options().parameter_scale * left.length * left.length, rounding});
 }
 
 std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, const EventSigns& signs) {
@@ -110,8 +141,8 @@ std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, co
     event.sample = best ? *best : segment.base();
     event.lo = bracket.lo;
     event.hi = bracket.hi;
-    event.precision = width(segment, bracket.lo, bracket.hi);
-    constexpr double narrow = 1e-5;
+    event.precision = width(segment, bracket.lo, bracket.hi) + solved_to(segment, event.sample);
+    const double narrow = 1e-5 * segment.options().parameter_scale;
     if (!bracket.converged && event.precision > narrow) {
       event.note = "bracket not converged: " + segment.failure();
     }
@@ -131,112 +162,30 @@ std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, co
   return found;
 }
 
-namespace {
-
-// Multiplicity of the branch points between two samples, net of one fold where the tangent turns; 0: none
-// seen.
-int branch_points_between(const Sample& lo, const Sample& hi) {
-  if (lo.index >= 0 && hi.index >= 0) {
-    const int change = std::abs(hi.index - lo.index);
-    if (is_vertical(lo, hi)) return std::max(change - 1, 0);  // the branch's own direction is neutral
-    if (lo.tangent.p * hi.tangent.p >= 0.0) return change;
-    // A fold changes the index by one; unchanged across a turn, the side branch of a pitchfork goes through
-    // it.
-    return change == 1 ? 0 : std::max(change, 1);
-  }
-  return lo.determinant * hi.determinant < 0 ? 1 : 0;
-}
-
-void search(Segment& segment, const Sample& lo, const Sample& hi, int depth, std::vector<Located>& found) {
-  const int multiplicity = branch_points_between(lo, hi);
-  if (multiplicity == 0) return;
-  std::string why;
-  // The reduced equations cost about five factorisations, a halving two: they are tried early, then now and
-  // then.
-  const bool attempt = depth == 0 || depth == 2 || depth % 4 == 0;
-  if (attempt) {
-    std::optional<BranchPoint> point = polish_branch_point(segment, lo, hi, multiplicity, why);
-    if (point) {
-      const Eigen::Index parameter = segment.options().parameter;
-      Located located;
-      located.type = PointType::branch_point;
-      located.lo = lo.s;
-      located.hi = hi.s;
-      const double ds = segment.path_length(point->u, point->p[parameter] - lo.it.p[parameter]);
-      const double part = ds / (hi.s - lo.s);
-      constexpr double same = 1e-5;  // the state is free along the null vector, to within its curvature
-      const bool again = std::any_of(found.begin(), found.end(), [&](const Located& other) {
-        return other.branch_point &&
-               (other.branch_point->x - point->x).norm() <= same * (1.0 + point->x.norm()) &&
-               std::abs(other.branch_point->p[parameter] - point->p[parameter]) <= 1e3 * tolerance(segment);
+std::optional<Located> locate_function(Segment& segment, const UserFunction& function, const Sample& lo,
+                                       const Sample& hi) {
+  const auto value = [&](const Sample& sample) { return function.value(sample.it.x, sample.it.p); };
+  const double f_lo = value(lo), f_hi = value(hi);
+  if (!(f_lo != 0.0 && (f_hi == 0.0 || (f_lo < 0.0) != (f_hi < 0.0)))) return std::nullopt;
+  const Bracket bracket =
+      find_zero(lo.s, f_lo, hi.s, f_hi, tolerance(segment), [&](double s) -> std::optional<double> {
+        const Sample* sample = segment.at(s, false);
+        if (!sample) return std::nullopt;
+        return value(*sample);
       });
-      // A little slack only: of two points close together each bracket must yield its own. Where p is monotonic it says
-      // better than the chord whether the point is inside.
-      const double slack = 0.01 + 1e-7 / (hi.s - lo.s);
-      const double p_lo = lo.it.p[parameter], p_hi = hi.it.p[parameter], p_here = point->p[parameter];
-      const bool monotonic = lo.tangent.p * hi.tangent.p > 0.0;
-      const double margin = 1e-4 * std::abs(p_hi - p_lo) + 1e-7;
-      const bool inside =
-          !monotonic || (p_here > std::min(p_lo, p_hi) - margin && p_here < std::max(p_lo, p_hi) + margin);
-      if (part > -slack && part < 1.0 + slack && inside && !again) {
-        located.s = lo.s + std::clamp(part, 0.0, 1.0) * (hi.s - lo.s);
-        located.precision = point->precision;
-        located.index = lo.index;
-        located.index_after = hi.index;
-        located.multiplicity = multiplicity;
-        located.sample.it.x = point->x;
-        located.sample.it.p = point->p;
-        located.sample.tangent = lo.tangent;
-        if (!point->tangents.empty()) {
-          Tangent along = point->tangents[0];
-          if (inner(*segment.problem(), along, lo.tangent, segment.options().parameter_scale) < 0.0) {
-            along.x = -along.x;
-            along.p = -along.p;
-          }
-          located.sample.tangent = std::move(along);
-        }
-        located.branch_point = std::move(point);
-        found.push_back(std::move(located));
-        return;
-      }
-      why = "the branch point equations lead out of the bracket";
-    }
-  }
-  const Sample* middle = nullptr;
-  if (hi.s - lo.s > tolerance(segment) && depth < 60) {
-    for (const double part : {0.5, 0.35, 0.65}) {  // right on the branch point the solve may fail
-      middle = segment.at(lo.s + part * (hi.s - lo.s), true);
-      if (middle) break;
-    }
-  }
-  if (!middle) return found.push_back(unpolished(segment, lo, hi, multiplicity, why));
-  // Where halving makes the change vanish, the count at one end was roundoff close to an eigenvalue's touch.
-  search(segment, lo, *middle, depth + 1, found);
-  search(segment, *middle, hi, depth + 1, found);
-}
-
-}  // namespace
-
-Located unpolished(Segment& segment, const Sample& lo, const Sample& hi, int multiplicity,
-                   const std::string& why) {
+  const Sample* best = segment.at(bracket.best, true);
+  if (!best) return std::nullopt;
   Located located;
-  located.type = PointType::branch_point;
-  located.s = 0.5 * (lo.s + hi.s);
-  located.lo = lo.s;
-  located.hi = hi.s;
-  located.sample = lo;
-  located.precision = std::abs(segment.parameter(hi) - segment.parameter(lo));
-  located.index = lo.index;
-  located.index_after = hi.index;
-  located.multiplicity = multiplicity;
-  located.note = "not polished: " + (why.empty() ? segment.failure() : why);
+  located.type = PointType::function;
+  located.event = function.name;
+  located.s = bracket.best;
+  located.sample = *best;
+  located.lo = bracket.lo;
+  located.hi = bracket.hi;
+  located.precision = width(segment, bracket.lo, bracket.hi) + solved_to(segment, *best);
+  located.index = located.index_after = best->index;
+  if (!bracket.converged) located.note = "bracket not converged: " + segment.failure();
   return located;
-}
-
-std::vector<Located> locate_branch_points(Segment& segment, const Sample& lo, const Sample& hi) {
-  std::vector<Located> found;
-  search(segment, lo, hi, 0, found);
-  return found;
 }
 
 }  // namespace continuation

@@ -9,7 +9,7 @@ namespace {
 
 bool is_special(const Point& point) {
   return point.type == PointType::fold || point.type == PointType::branch_point ||
-         point.type == PointType::event;
+         point.type == PointType::event || point.type == PointType::hopf;
 }
 
 /// Branches are numbered from 1 for people.
@@ -78,6 +78,8 @@ class Tracer {
 
   /// Hands a point out; returns the branch's end if it is a special point of another branch.
   std::optional<End> report(Point point) {
+    if (point.type == PointType::start && !point.note.empty())
+      diagram().notes.push_back(branch_name(branch().id) + ": " + point.note);
     if (!is_special(point)) {
       observer_.on_point(branch(), point);
       return std::nullopt;
@@ -85,10 +87,21 @@ class Tracer {
     Vector fingerprint = point.problem->fingerprint(point.x, point.p);
     if (SpecialPoint* known = find(point, fingerprint)) {
       point.label = known->point.label;
-      known->arrivals.push_back(Tangent{-point.tangent.x, -point.tangent.p});
-      known->arrival_points.push_back(point);
-      known->arrival_points.back().branch_point.reset();  // its "known" branch is the one looked for here
+      // The branch that goes the other way from a start on a branch point has not come along any arm of it.
+      if (point.type == PointType::branch_point && point.path_length == 0.0) {
+        observer_.on_point(branch(), point);
+        return std::nullopt;
+      }
+      const bool through_itself = known->branch == branch().id;
+      const auto came_along = [&](Tangent way) {
+        known->arrivals.push_back(std::move(way));
+        known->arrival_points.push_back(point);
+        known->arrival_points.back().branch_point.reset();  // its "known" branch is the one looked for here
+      };
+      came_along(Tangent{-point.tangent.x, -point.tangent.p});
+      if (through_itself) came_along(point.tangent);
       observer_.on_point(branch(), point);
+      if (through_itself) return std::nullopt;
       return End{End::Kind::joined, "joins " + branch_name(known->branch) + " at " + known->point.label};
     }
     point.label = next_label(point.type);
@@ -143,7 +156,10 @@ class Tracer {
     const SpecialPoint& origin = special(next.special);
     const Vector fingerprint = arm.problem->fingerprint(arm.x, arm.p);
     if (fingerprint.size() != origin.fingerprint.size()) return false;
-    const double moved = (fingerprint - origin.fingerprint).norm() + (arm.p - origin.point.p).norm();
+    const auto distance = [&](const Vector& print, const Vector& p, const Vector& other, const Vector& q) {
+      return (print - other).norm() / options_.state_scale + (p - q).norm() / options_.parameter_scale;
+    };
+    const double moved = distance(fingerprint, arm.p, origin.fingerprint, origin.point.p);
     for (std::size_t i = 0; i < origin.arrivals.size(); ++i) {
       ArmFailure failure;
       const std::optional<Arm> back =
@@ -151,16 +167,28 @@ class Tracer {
       if (!back) continue;
       const Vector other = back->problem->fingerprint(back->x, back->p);
       if (other.size() != fingerprint.size()) continue;
-      if ((other - fingerprint).norm() + (back->p - arm.p).norm() <= 0.05 * moved + 1e-7) return true;
+      if (distance(other, back->p, fingerprint, arm.p) <= 0.05 * moved + 1e-7) return true;
     }
     return false;
   }
 
+  /// The same solution itself, not its mirror image.
+  bool same_state(const Point& a, const Point& b) const {
+    constexpr double same = 1e-5;  // free along the null vector, to within its curvature
+    return a.x.size() == b.x.size() &&
+           (a.x - b.x).norm() <=
+               same * (options_.state_scale * std::sqrt(static_cast<double>(a.x.size())) + a.x.norm());
+  }
+
   SpecialPoint* find(const Point& point, const Vector& fingerprint) {
     for (SpecialPoint& known : diagram().specials) {
-      if (known.branch == branch().id || known.point.type != point.type) continue;
-      if (same_fingerprint(known.point.p, point.p, 1e-6) &&
-          same_fingerprint(known.fingerprint, fingerprint, 1e-5))
+      if (known.point.type != point.type) continue;
+      // A branch may go through itself at a branch point; a mirror image there is another point of it.
+      if (known.branch == branch().id &&
+          (point.type != PointType::branch_point || !same_state(known.point, point)))
+        continue;
+      if (same_fingerprint(known.point.p, point.p, 1e-6, options_.parameter_scale) &&
+          same_fingerprint(known.fingerprint, fingerprint, 1e-5, options_.state_scale))
         return &known;
     }
     return nullptr;
@@ -169,6 +197,7 @@ class Tracer {
   std::string next_label(PointType type) {
     if (type == PointType::fold) return "F" + std::to_string(++state_.folds);
     if (type == PointType::branch_point) return "B" + std::to_string(++state_.branch_points);
+    if (type == PointType::hopf) return "H" + std::to_string(++state_.hopf_points);
     return "E" + std::to_string(++state_.events);
   }
 

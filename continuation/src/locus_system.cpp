@@ -42,7 +42,7 @@ LocusSystem::LocusSystem(std::shared_ptr<Problem> problem, const Options& option
       second_(second),
       p_(p),
       reduced_(*problem_, options_, x, p,
-               null ? std::move(*null) : null_vectors(*problem_, x, p, multiplicity_), {first}) {
+               null ? std::move(*null) : null_vectors(*problem_, x, p, multiplicity_, options), {first}) {
   if (kind_ == LocusKind::event && !find(problem_->events(x, p), event_))
     throw std::invalid_argument("locus: the problem has no event \"" + event_ + "\"");
   if (size() == 3) return;

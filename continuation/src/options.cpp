@@ -27,6 +27,10 @@ void Options::validate() const {
   require(step <= step_max, "step <= step_max", step);
   require(std::isfinite(step_max), "step_max < infinity", step_max);
   require(parameter_scale > 0.0 && std::isfinite(parameter_scale), "parameter_scale > 0", parameter_scale);
+  require(state_scale > 0.0 && std::isfinite(state_scale), "state_scale > 0", state_scale);
+  require(residual_scale > 0.0 && std::isfinite(residual_scale), "residual_scale > 0", residual_scale);
+  for (const UserFunction& function : functions)
+    require(static_cast<bool>(function.value), "a function to call", function.name);
   require(max_points >= 1, "max_points >= 1", max_points);
   require(max_angle > 0.0 && max_angle < 1.5707963267948966, "0 < max_angle < pi/2", max_angle);
   require(newton_tolerance > 0.0 && newton_tolerance < 1.0, "0 < newton_tolerance < 1", newton_tolerance);

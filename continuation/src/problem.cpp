@@ -40,17 +40,15 @@ Vector Problem::dual(const Vector& a) const {
   return a * (inner(a, a) / square);
 }
 
+int Problem::complex_index(const Vector&, const Vector&) { return 0; }
+
 int Problem::breaking_index(const Vector&, const Vector&) { return -1; }
 
 std::optional<Unrestricted> Problem::unrestricted(const Vector&, const Vector&) { return std::nullopt; }
 
 int Problem::determinant_sign() { return 0; }
 
-std::vector<Vector> Problem::kernel_directions(const Vector&, const Vector&, const Matrix& kernel) {
-  std::vector<Vector> directions;
-  for (Eigen::Index i = 0; i < kernel.cols(); ++i) directions.emplace_back(kernel.col(i));
-  return directions;
-}
+std::vector<Vector> Problem::kernel_directions(const Vector&, const Vector&, const Matrix&) { return {}; }
 
 std::vector<EventFunction> Problem::events(const Vector&, const Vector&) { return {}; }
 

@@ -16,17 +16,18 @@ Matrix orthonormal(const Matrix& columns) {
   return q;
 }
 
-void scale_to_metric(const Problem& problem, Matrix& columns) {
+void scale_to_metric(const Problem& problem, Matrix& columns, double state_scale) {
   for (Eigen::Index i = 0; i < columns.cols(); ++i) {
     const double length = std::sqrt(problem.inner(columns.col(i), columns.col(i)));
     if (!(length > 0.0) || !std::isfinite(length)) throw std::runtime_error("a null vector is not finite");
-    columns.col(i) /= length;
+    columns.col(i) *= state_scale / length;
   }
 }
 
 }  // namespace
 
-NullVectors null_vectors(Problem& problem, const Vector& x, const Vector& p, Eigen::Index k, int passes) {
+NullVectors null_vectors(Problem& problem, const Vector& x, const Vector& p, Eigen::Index k,
+                         const Options& options, int passes) {
   const Eigen::Index n = problem.size();
   NullVectors null{Matrix(n, k), Matrix(n, k)};
   // Quasi-random starting borders: nothing smooth or symmetric is orthogonal to them.
@@ -41,8 +42,9 @@ NullVectors null_vectors(Problem& problem, const Vector& x, const Vector& p, Eig
   null.right = orthonormal(null.right);
   null.left = orthonormal(null.left);
   const Vector zero = Vector::Zero(n);
+  const double size = options.residual_scale / options.state_scale;  // of J: pivots are chosen among equals
   for (int pass = 0; pass < passes; ++pass) {
-    problem.factor(x, p, null.left, null.right, Matrix::Zero(k, k));
+    problem.factor(x, p, size * null.left, size * null.right, Matrix::Zero(k, k));
     for (Eigen::Index j = 0; j < k; ++j) {
       const Vector unit = Vector::Unit(k, j);
       null.right.col(j) = problem.solve(zero, unit).head(n);
@@ -53,18 +55,26 @@ NullVectors null_vectors(Problem& problem, const Vector& x, const Vector& p, Eig
     null.right = orthonormal(null.right);
     null.left = orthonormal(null.left);
   }
-  scale_to_metric(problem, null.right);
+  scale_to_metric(problem, null.right, options.state_scale);
   return null;
+}
+
+double nearness(Problem& problem, const Vector& x, const Vector& p, const NullVectors& null,
+                const Options& options) {
+  const Vector row = null.right.col(0) / null.right.col(0).squaredNorm();
+  problem.factor(x, p, options.residual_scale * null.left.leftCols(1), row, Matrix::Zero(1, 1));
+  return problem.solve(Vector::Zero(problem.size()), Vector::Ones(1))[problem.size()];
 }
 
 Reduced::Reduced(Problem& problem, const Options& options, const Vector& x, const Vector& p, NullVectors null,
                  std::vector<Eigen::Index> parameters)
     : problem_(problem), options_(options), null_(std::move(null)), parameters_(std::move(parameters)) {
   const Eigen::Index k = null_.right.cols();
-  borders_.psi = null_.left;
+  borders_.psi = options.residual_scale * null_.left;
   borders_.c = null_.right;
   for (Eigen::Index i = 0; i < k; ++i) borders_.c.col(i) /= null_.right.col(i).squaredNorm();
   borders_.d = Matrix::Zero(k, k);
+  borders_.state_scale = options.state_scale;
   last_.it = Iterate{x, Vector::Zero(problem.size()), p, Vector::Zero(k)};
   last_.alpha = Vector::Zero(k);
 }
@@ -137,7 +147,7 @@ NullVectors Reduced::refreshed(const Value& value) {
   for (Eigen::Index j = 0; j < k; ++j)
     null.left.col(j) = problem_.solve_transposed(Vector::Zero(n), Vector::Unit(k, j)).head(n);
   null.left = orthonormal(null.left);
-  scale_to_metric(problem_, null.right);
+  scale_to_metric(problem_, null.right, options_.state_scale);
   return null;
 }
 

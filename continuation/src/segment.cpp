@@ -1,5 +1,6 @@
 #include "continuation/segment.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <stdexcept>
@@ -13,7 +14,8 @@ Segment::Segment(std::shared_ptr<Problem> problem, const Options& options, Vecto
   keller_.parameter = options_.parameter;
   keller_.scale = options_.parameter_scale;
   keller_.psi = Matrix(problem_->size(), 0);
-  keller_.c = problem_->dual(tangent_.x);
+  keller_.state_scale = options_.state_scale;
+  keller_.c = problem_->dual(tangent_.x) / (options_.state_scale * options_.state_scale);
   keller_.d = Matrix::Constant(1, 1, tangent_.p / (keller_.scale * keller_.scale));
   keller_.g = Vector::Zero(1);
   Sample base;
@@ -103,6 +105,11 @@ Sample* Segment::at(double s, bool wants_complete) {
   return sample;
 }
 
+const Sample* Segment::corrected() {
+  keller_.g[0] = 0.0;
+  return finish(keller_, base().it, true);
+}
+
 Sample* Segment::at_parameter(double value, const Sample& lo, const Sample& hi, bool wants_complete) {
   const double change = value - base().it.p[options_.parameter];
   const double rise = hi.it.y[0] - lo.it.y[0];
@@ -122,13 +129,46 @@ void Segment::complete(Sample& sample) {
     const Matrix column = problem.parameter_derivative(sample.it.x, sample.it.p, options_.parameter);
     problem.factor(sample.it.x, sample.it.p, column, keller_.c, keller_.d);
   }
-  sample.tangent = next_tangent(problem, options_.parameter_scale);
+  sample.tangent = next_tangent(problem, options_.scales());
   if (!sample.tangent.x.allFinite()) throw std::runtime_error("the tangent is not finite");
   sample.determinant = problem.determinant_sign();
   sample.index = options_.detect_branch_points ? problem.index(sample.it.x, sample.it.p) : -1;
+  if (options_.detect_branch_points && sample.index < 0 && sample.determinant != 0) {
+    const std::optional<SmallEigenvalues>& near = base().small;
+    sample.small =
+        small_eigenvalues(problem, sample.tangent.x, sample.tangent.p, near ? near->basis : Matrix());
+  }
+  sample.complex_index = sample.index >= 0 ? problem.complex_index(sample.it.x, sample.it.p) : 0;
   sample.breaking_index =
       options_.detect_branch_points ? problem.breaking_index(sample.it.x, sample.it.p) : -1;
   sample.complete = true;
+}
+
+Correction Segment::sharpen(Sample& sample) {
+  keller_.g[0] = sample.s;
+  BorderedSystem system(*problem_, keller_, sample.it);
+  const Vector defect = system.defect();
+  system.factor();
+  const Vector delta = system.solve(defect);
+  system.add(delta);
+  sample.report.factored_here = false;
+  return {system.length(delta), std::abs(delta[problem_->size()])};
+}
+
+const Sample* Segment::complete_beside(double s, double beyond, int side) const {
+  const Sample* nearest = nullptr;
+  for (const Sample& sample : samples_) {
+    const double distance = side * (sample.s - s);
+    if (!sample.complete || distance < beyond) continue;
+    if (!nearest || distance < side * (nearest->s - s)) nearest = &sample;
+  }
+  return nearest;
+}
+
+double Segment::reach() const {
+  double reach = 0.0;
+  for (const Sample& sample : samples_) reach = std::max(reach, std::abs(sample.s));
+  return reach;
 }
 
 void Segment::add_events(Sample& sample) { sample.events = problem_->events(sample.it.x, sample.it.p); }

@@ -62,9 +62,10 @@ struct Together {
 
 Together together(Segment& segment, const Sample& lo, const Sample& hi,
                   const std::vector<Located>& restricted) {
-  const double smallest = 1e-5 * std::max(1.0, std::abs(segment.parameter(segment.base())));
+  const double smallest =
+      1e-5 * std::max(1.0, std::abs(segment.parameter(segment.base())) / segment.options().parameter_scale);
   for (const Located& point : restricted) {
-    const double close = std::max(smallest, 100.0 * point.precision);
+    const double close = std::max(smallest, 100.0 * point.precision / segment.options().parameter_scale);
     if (point.s - close <= lo.s || point.s + close >= hi.s) continue;
     const Sample* below = segment.at(point.s - close, true);
     const Sample* above = below ? segment.at(point.s + close, true) : nullptr;
@@ -93,7 +94,8 @@ void search(Segment& segment, const Sample& lo, const Sample& hi, int depth,
     if (piece && add(segment, lo, hi, std::move(*piece), found)) return;
   }
   const double smallest =
-      segment.options().location_tolerance * std::max(1.0, std::abs(segment.parameter(segment.base())));
+      segment.options().location_tolerance *
+      std::max(1.0, std::abs(segment.parameter(segment.base())) / segment.options().parameter_scale);
   const Sample* middle = nullptr;
   if (hi.s - lo.s > smallest && depth < 60) middle = segment.at(0.5 * (lo.s + hi.s), true);
   if (!middle) {

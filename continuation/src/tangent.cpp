@@ -1,16 +1,18 @@
 #include "continuation/tangent.hpp"
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace continuation {
 
-double inner(const Problem& problem, const Tangent& a, const Tangent& b, double scale) {
-  return problem.inner(a.x, b.x) + a.p * b.p / (scale * scale);
+double inner(const Problem& problem, const Tangent& a, const Tangent& b, const Scales& scales) {
+  return problem.inner(a.x, b.x) / (scales.state * scales.state) +
+         a.p * b.p / (scales.parameter * scales.parameter);
 }
 
-void normalise(const Problem& problem, Tangent& tangent, double scale) {
-  const double length = std::sqrt(inner(problem, tangent, tangent, scale));
+void normalise(const Problem& problem, Tangent& tangent, const Scales& scales) {
+  const double length = std::sqrt(inner(problem, tangent, tangent, scales));
   if (!(length > 0.0) || !std::isfinite(length))
     throw std::runtime_error("the tangent is zero or not finite");
   tangent.x /= length;
@@ -26,18 +28,20 @@ Tangent bordered_tangent(Problem& problem, const Vector& x, const Vector& p, con
   problem.factor(x, p, column, row, Matrix::Constant(1, 1, corner));
   const Vector t = problem.solve(Vector::Zero(n), Vector::Ones(1));
   Tangent tangent{t.head(n), t[n]};
-  normalise(problem, tangent, options.parameter_scale);
+  normalise(problem, tangent, options.scales());
   return tangent;
 }
 
 }  // namespace
 
 Tangent first_tangent(Problem& problem, const Vector& x, const Vector& p, const Options& options,
-                      int direction) {
+                      int direction, double* sharp) {
   const Eigen::Index n = problem.size();
   Tangent tangent;
+  if (sharp) *sharp = std::numeric_limits<double>::infinity();
   try {
     tangent = bordered_tangent(problem, x, p, options, Vector::Zero(n), 1.0);
+    if (sharp) *sharp = options.parameter_scale / std::abs(tangent.p);
   } catch (const std::runtime_error&) {
     // A fold exactly at the start: any border not orthogonal to the kernel does.
     Vector row(n);
@@ -51,11 +55,11 @@ Tangent first_tangent(Problem& problem, const Vector& x, const Vector& p, const 
   return tangent;
 }
 
-Tangent next_tangent(Problem& problem, double scale) {
+Tangent next_tangent(Problem& problem, const Scales& scales) {
   const Eigen::Index n = problem.size();
   const Vector t = problem.solve(Vector::Zero(n), Vector::Ones(1));
   Tangent tangent{t.head(n), t[n]};
-  normalise(problem, tangent, scale);
+  normalise(problem, tangent, scales);
   return tangent;
 }
 

@@ -22,6 +22,10 @@ const char* name(PointType type) {
       return "event";
     case PointType::end:
       return "end";
+    case PointType::hopf:
+      return "hopf";
+    case PointType::function:
+      return "function";
   }
   return "?";
 }
@@ -59,7 +63,7 @@ Walker::Walker(std::shared_ptr<Problem> problem, Vector x, Vector p, Tangent tan
     throw std::invalid_argument("continuation: the tangent has " + std::to_string(tangent.x.size()) +
                                 " entries, the problem " + std::to_string(state_.problem->size()));
   }
-  normalise(*state_.problem, tangent, options_.parameter_scale);
+  normalise(*state_.problem, tangent, options_.scales());
   state_.tangent = std::move(tangent);
   state_.has_tangent = true;
 }
@@ -97,43 +101,6 @@ std::optional<Point> Walker::step() {
   return point;
 }
 
-void Walker::start() {
-  state_.started = true;
-  try {
-    if (!state_.has_tangent) {
-      Borders fixed;
-      fixed.parameter = options_.parameter;
-      fixed.scale = options_.parameter_scale;
-      fixed.psi = Matrix(state_.problem->size(), 0);
-      fixed.c = Matrix::Zero(state_.problem->size(), 1);
-      fixed.d = Matrix::Ones(1, 1);
-      fixed.g = Vector::Zero(1);
-      Iterate it{state_.x, Vector::Zero(state_.problem->size()), state_.p, Vector::Zero(1)};
-      Options patient = options_;  // a cold start deserves more corrections than a step
-      patient.max_newton = std::max(options_.max_newton, 20);
-      const CorrectorReport report = correct(*state_.problem, fixed, it, patient);
-      if (!report.converged) return lose("no solution at the start: " + report.failure);
-      state_.x = it.x;
-      state_.tangent = first_tangent(*state_.problem, state_.x, state_.p, options_, options_.direction);
-    }
-    Segment segment(state_.problem, options_, state_.x, state_.p, state_.tangent);
-    segment.base().complete = false;
-    Sample* sample = segment.at(0.0, true);
-    if (!sample) return lose("no solution at the start: " + segment.failure());
-    if (!state_.has_tangent) parameter(sample->it.p) = parameter(state_.p);
-    segment.add_events(*sample);
-    settle(segment, *sample);
-  } catch (const std::domain_error& error) {
-    return lose(std::string("no solution at the start: ") + error.what());
-  } catch (const std::runtime_error& error) {
-    return lose(std::string("no solution at the start: ") + error.what());
-  }
-  state_.points = 1;
-  state_.previous_tangent = state_.tangent;
-  remember_start();
-  queue_.push_back(here(PointType::start));
-}
-
 Point Walker::here(PointType type) const {
   Point point;
   point.problem = state_.problem;
@@ -143,7 +110,14 @@ Point Walker::here(PointType type) const {
   point.type = type;
   point.index = point.index_after = state_.index;
   point.path_length = state_.path_length;
+  point.functions = function_values(point.x, point.p);
   return point;
+}
+
+std::vector<double> Walker::function_values(const Vector& x, const Vector& p) const {
+  std::vector<double> values;
+  for (const UserFunction& function : options_.functions) values.push_back(function.value(x, p));
+  return values;
 }
 
 void Walker::remember_start() {
@@ -162,8 +136,10 @@ void Walker::settle(Segment& segment, Sample& sample) {
   state_.previous_tangent = state_.tangent;
   state_.tangent = sample.tangent;
   state_.index = sample.index;
+  state_.complex_index = sample.complex_index;
   state_.breaking_index = sample.breaking_index;
   state_.determinant = sample.determinant;
+  state_.small = sample.small;
   state_.previous_events = std::exchange(state_.events, sample.events);
   state_.path_length += sample.s;
   state_.last_ds = sample.s;

@@ -19,6 +19,7 @@ Borders fixed_parameter(const Problem& problem, const Options& options) {
   fixed.c = Matrix::Zero(problem.size(), 1);
   fixed.d = Matrix::Ones(1, 1);
   fixed.g = Vector::Zero(1);
+  fixed.state_scale = options.state_scale;
   return fixed;
 }
 

@@ -33,4 +33,9 @@ struct BranchPoint {
 std::optional<BranchPoint> polish_branch_point(Segment& segment, const Sample& lo, const Sample& hi,
                                                int multiplicity, std::string& why);
 
+/// The simple branch point within about `width` of a state that is close to singular. The first of its tangents is
+/// the one with the larger share of the parameter.
+std::optional<BranchPoint> branch_point_at(Problem& problem, const Options& options, const Vector& x,
+                                           const Vector& p, double width, std::string& why);
+
 }  // namespace continuation

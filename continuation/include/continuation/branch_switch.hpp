@@ -27,9 +27,10 @@ struct Arms {
 /// All arms that leave a branch point, the branch it was found on excepted.
 ///
 /// Simple points: both signs of the crossing tangent (pitchfork: ±φ; transcritical: the other branch).
-/// Multiple points: both signs of the directions Problem::kernel_directions names. Each start solves F = 0
-/// with the distance ε along the direction fixed and p free, for several ε until the solution lies along the
-/// direction and all its events are positive. Arms with equal fingerprints are named once.
+/// Multiple points: both signs of the directions Problem::kernel_directions names, or for a double point without
+/// names all rays of the bifurcation equations. Each start solves F = 0 with the distance ε along the direction
+/// fixed and p free, for several ε until the solution lies along the direction and all its events are positive.
+/// Arms with equal fingerprints are named once.
 Arms switch_branch(const Point& branch_point, const Options& options);
 
 /// Why an arm could not be started.
@@ -42,7 +43,7 @@ struct ArmFailure {
 std::optional<Arm> start_arm(const Point& branch_point, const Tangent& direction, double epsilon,
                              const Options& options, ArmFailure& failure);
 
-/// rms(a − b) <= tolerance · max(1, rms a), and equal lengths.
-bool same_fingerprint(const Vector& a, const Vector& b, double tolerance);
+/// rms(a − b) <= tolerance · max(unit, rms a), and equal lengths.
+bool same_fingerprint(const Vector& a, const Vector& b, double tolerance, double unit = 1.0);
 
 }  // namespace continuation

@@ -30,10 +30,17 @@ struct Located {
 
 /// Does the parameter stay where it is between two completed samples, to within rounding? A motion that costs nothing makes
 /// such a branch; all its points are degenerate, none is a fold.
-bool is_vertical(const Sample& lo, const Sample& hi);
+bool is_vertical(const Segment& segment, const Sample& lo, const Sample& hi);
 
 /// The zero of the tangent's parameter component between two completed samples where it has opposite signs.
 Located locate_fold(Segment& segment, const Sample& lo, const Sample& hi);
+
+/// Is this zero a jump of the slope? The corrector then found different branches on its two sides.
+bool slope_jumps(const Sample& lo, const Sample& hi, const Located& fold);
+
+/// Takes the error that Newton's tolerance left out of a fold, and says in its precision how large it was.
+/// @throws std::runtime_error, std::domain_error as the problem does
+void sharpen_fold(Segment& segment, Located& fold);
 
 /// Signs of the events along a branch, by name. An event without an entry counts as positive.
 using EventSigns = std::map<std::string, int>;
@@ -43,9 +50,30 @@ using EventSigns = std::map<std::string, int>;
 /// @return nullopt when no event changes sign. `note` is not empty if the bracket did not converge.
 std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, const EventSigns& signs);
 
-/// All branch points between two completed samples: the interval is halved on the change of the index
-/// (corrected for folds, det [J F_p; t] where the index is unknown) until the reduced equations find the
-/// point in it.
+/// The zero of a user function between two samples where it has opposite signs; nullopt where it has not.
+std::optional<Located> locate_function(Segment& segment, const UserFunction& function, const Sample& lo,
+                                       const Sample& hi);
+
+/// What the index says of a step.
+struct Crossings {
+  std::vector<Located> points;  ///< branch points and Hopf points, not sorted
+  bool fold = false;            ///< the turn of the parameter is a fold
+  std::string refusal;          ///< the index changes where no branch point is: the step has left its branch
+};
+
+/// Branch points, Hopf points and the nature of a turn between two completed samples.
+///
+/// An interval over which the index changes (det J where it is unknown) is halved until the reduced equations find the
+/// point in it. A turn of the parameter is a fold if the index changes by an odd number across it. Where several
+/// eigenvalues change sign but J stays regular, a complex pair became real or the reverse.
+///
+/// @param turn  where dp/ds vanishes, or null
+/// @param edge  path length of an event: the index close to it may change for reasons of its own
+/// @param may_refuse  the step is long: an index that changes without a branch point is a jump to another branch
+Crossings locate_crossings(Segment& segment, const Sample& lo, const Sample& hi, const Located* turn,
+                           double edge, bool may_refuse);
+
+/// All branch points between two completed samples between which the parameter does not turn.
 std::vector<Located> locate_branch_points(Segment& segment, const Sample& lo, const Sample& hi);
 
 /// A branch point that is known by its bracket only; why: what kept it from being located, empty: the segment's failure.

@@ -12,8 +12,8 @@ namespace continuation {
 struct DiagramOptions {
   bool both_ways = false;  ///< the first branch is walked in both directions from the start
   bool arms = true;        ///< branches that leave branch points are walked, too
-  int max_branches = 50;  ///< branches in all
-  int max_depth = 3;      ///< branch points between the first branch and the last arms
+  int max_branches = 50;   ///< branches in all
+  int max_depth = 3;       ///< branch points between the first branch and the last arms
   /// Of points that break the problem's symmetry, and on branches that have broken it, the arms are walked where stability
   /// is lost or won, so that all that a stable branch leads to is seen; the whole tree belongs to the unrestricted problem.
   bool breaking_arms_of_stable = true;
@@ -32,8 +32,8 @@ struct SpecialPoint {
   Point point;  ///< with a label counted over the diagram
   int branch = 0;
   Vector fingerprint;
-  std::vector<Tangent> arrivals;      ///< from a joining branch, pointing back along it
-  std::vector<Point> arrival_points;  ///< and the joining branch's own solution there
+  std::vector<Tangent> arrivals;      ///< of a joining branch, back along it; of the branch itself, both ways
+  std::vector<Point> arrival_points;  ///< and that branch's own solution there
 };
 
 struct Diagram {
@@ -42,6 +42,7 @@ struct Diagram {
   std::vector<std::string>
       lost;  ///< what failed: lost branches, arms that could not be started, limits reached
   std::vector<std::string> inadmissible;  ///< arms of branch points on which an event function is negative
+  std::vector<std::string> notes;         ///< what could not be looked for, and why
   bool stopped = false;                   ///< by should_stop
 };
 
@@ -58,8 +59,8 @@ struct DiagramState {
   Diagram diagram;  ///< so far; its last branch is in progress if there is a walker
   std::deque<PendingBranch> pending;
   std::optional<Walker> walker;
-  int first_special = 0;                         ///< of the branch in progress, place in Diagram::specials
-  int folds = 0, branch_points = 0, events = 0;  ///< labels given
+  int first_special = 0;  ///< of the branch in progress, place in Diagram::specials
+  int folds = 0, branch_points = 0, events = 0, hopf_points = 0;  ///< labels given
 };
 
 /// Receives the diagram while it grows. All do nothing by default.
@@ -79,7 +80,8 @@ class DiagramObserver {
 /// The first branch, then, breadth first, the arms of every branch point found.
 ///
 /// A branch that meets a special point of another branch (same kind, parameter and fingerprint) has joined
-/// it: it ends there, and the arm it came along is not walked again from the other side.
+/// it: it ends there, and the arm it came along is not walked again from the other side. A branch that goes
+/// through itself meets its own branch point again, and goes on; the arms it is itself are not walked.
 Diagram trace_diagram(std::shared_ptr<Problem> problem, const Vector& x, const Vector& p,
                       const Options& options, const DiagramOptions& diagram_options,
                       DiagramObserver& observer);

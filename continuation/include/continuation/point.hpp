@@ -2,14 +2,15 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "continuation/branch_point.hpp"
 
 namespace continuation {
 
-enum class PointType { start, regular, fold, branch_point, event, end };
+enum class PointType { start, regular, fold, branch_point, event, end, hopf, function };
 
-/// "start", "regular", "fold", "branch_point", "event", "end".
+/// The enumerator's own name.
 const char* name(PointType type);
 
 /// One accepted or located solution of a branch.
@@ -23,12 +24,13 @@ struct Point {
   double path_length = 0.0;  ///< since the start
   double ds = 0.0;           ///< path length since the last accepted point
   int newton_iterations = 0;
-  int index = -1;        ///< at a special point: before it; -1: unknown
-  int index_after = -1;  ///< at a special point: after it
+  int index = -1;                 ///< at a special point: before it; -1: unknown
+  int index_after = -1;           ///< at a special point: after it
+  std::vector<double> functions;  ///< values of Options::functions
 
   // Special points only.
   std::string label;                                ///< "F1", "B1", "E1" ..., given by trace_diagram
-  std::string event;                                ///< name of the event function
+  std::string event;                                ///< name of the event function or user function
   std::string before, after;                        ///< the two descriptions of a Transition
   std::string note;                                 ///< e.g. why a branch point was not polished
   double precision = 0.0;                           ///< of the varied parameter
@@ -44,7 +46,7 @@ struct Point {
 
 /// Why a walk is over.
 struct End {
-  enum class Kind { none, target, bound, event, closed, joined, max_points, stopped, lost };
+  enum class Kind { none, target, bound, event, closed, joined, max_points, stopped, lost, function };
   Kind kind = Kind::none;
   std::string reason;  ///< readable; for `lost` it says what failed
 

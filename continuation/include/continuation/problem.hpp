@@ -78,8 +78,12 @@ class Problem {
 
   /// Number of negative eigenvalues of the second variation at (x, p), an equilibrium; the last `factor` was
   /// made there. Problems that are not gradients return the number of negative real eigenvalues of J, or -1
-  /// if unknown.
+  /// if unknown: branch points are then seen by determinant_sign() alone.
   virtual int index(const Vector& x, const Vector& p) = 0;
+
+  /// Number of complex eigenvalues of J with negative real part (two a pair), asked for right after index(). With it
+  /// Hopf points are seen, and a pair that turns real is told from branch points. The default is 0.
+  virtual int complex_index(const Vector& x, const Vector& p);
 
   /// Where F is posed on the symmetric states of a larger problem only (half of a body that is its own mirror
   /// image): negative directions of the larger problem's second variation that break the symmetry, which index()
@@ -109,7 +113,8 @@ class Problem {
   virtual int determinant_sign();
 
   /// Directions in the kernel of J along which arms may leave a multiple branch point; each is tried with
-  /// both signs. kernel: n×k, unit columns in `inner`. The default is the columns themselves.
+  /// both signs. kernel: n×k, unit columns in `inner`. None (the default): for k = 2 the library finds the arms
+  /// from the bifurcation equations, for larger k it tries the columns.
   virtual std::vector<Vector> kernel_directions(const Vector& x, const Vector& p, const Matrix& kernel);
 
   /// Signed functions, positive where this problem's description is valid (contact forces, gaps, lengths).

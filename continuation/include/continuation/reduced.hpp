@@ -10,14 +10,25 @@ namespace continuation {
 
 /// Approximate null vectors of J.
 struct NullVectors {
-  Matrix right;  ///< J φ ≈ 0; n×k, orthogonal columns, unit in Problem::inner
+  Matrix right;  ///< J φ ≈ 0; n×k, orthogonal columns, unit in the metric
   Matrix left;   ///< Jᵀ ψ ≈ 0; n×k, orthonormal
 };
 
-/// Null vectors by iterating [J ψ; φᵀ 0][φ' ; g] = [0; 1] and its transpose, from fixed starting borders.
+/// Null vectors, in the units of the options, by iterating [J ψ; φᵀ 0][φ' ; g] = [0; 1] and its transpose, from fixed starting borders.
 /// Regular also where J is singular; converges like inverse iteration where it is not.
 /// @throws std::runtime_error if the bordered matrix is singular (the kernel has more than k dimensions)
-NullVectors null_vectors(Problem& problem, const Vector& x, const Vector& p, Eigen::Index k, int passes = 3);
+NullVectors null_vectors(Problem& problem, const Vector& x, const Vector& p, Eigen::Index k,
+                         const Options& options, int passes = 3);
+
+/// y_α of the reduction below with these null vectors (the first columns): zero where J is singular, smooth along a
+/// branch. One factorisation. @throws as Problem::factor
+double nearness(Problem& problem, const Vector& x, const Vector& p, const NullVectors& null,
+                const Options& options);
+
+/// y_α of the reduction below with these null vectors (the first columns): zero where J is singular, smooth along a
+/// branch. One factorisation. @throws as Problem::factor
+double nearness(Problem& problem, const Vector& x, const Vector& p, const NullVectors& null,
+                const Options& options);
 
 /// Lyapunov-Schmidt reduction y(p, α) of F near a point where J is nearly singular:
 ///

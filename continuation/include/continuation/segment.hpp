@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "continuation/corrector.hpp"
+#include "continuation/small_eigenvalues.hpp"
 #include "continuation/tangent.hpp"
 
 namespace continuation {
@@ -15,14 +16,21 @@ namespace continuation {
 /// A solution near the base of a segment, at path length s along the base's tangent.
 struct Sample {
   double s = 0.0;
-  Iterate it;                         ///< state, sum of increments since the base, parameters
-  Tangent tangent;                    ///< unit, oriented like the base's; empty until completed
-  bool complete = false;              ///< tangent, index and determinant are known
-  int index = -1;                     ///< Problem::index; -1: unknown
-  int breaking_index = -1;            ///< Problem::breaking_index; -1: unknown
-  int determinant = 0;                ///< sign of det [J F_p; base tangent]; 0: unknown
-  std::vector<EventFunction> events;  ///< empty unless asked for
+  Iterate it;                             ///< state, sum of increments since the base, parameters
+  Tangent tangent;                        ///< unit, oriented like the base's; empty until completed
+  bool complete = false;                  ///< tangent, index and determinant are known
+  int index = -1;                         ///< Problem::index; -1: unknown
+  int complex_index = 0;                  ///< Problem::complex_index
+  int breaking_index = -1;                ///< Problem::breaking_index; -1: unknown
+  int determinant = 0;                    ///< sign of det [J F_p; base tangent]; 0: unknown
+  std::optional<SmallEigenvalues> small;  ///< where the index is unknown
+  std::vector<EventFunction> events;      ///< empty unless asked for
   CorrectorReport report;
+};
+
+/// How large a correction was: its length in the metric, and the varied parameter's share.
+struct Correction {
+  double length = 0.0, parameter = 0.0;
 };
 
 /// The piece of a branch that leaves a base point (x, p) with unit tangent t, solved at any path length s by
@@ -41,6 +49,9 @@ class Segment {
   /// segment.
   Sample* at(double s, bool complete);
 
+  /// The completed solution at s = 0 where the base itself does not solve F = 0; null if Newton's method fails.
+  const Sample* corrected();
+
   /// The solution with the varied parameter fixed to exactly `value`, which lies between those of the two
   /// samples.
   Sample* at_parameter(double value, const Sample& lo, const Sample& hi, bool complete);
@@ -54,7 +65,17 @@ class Segment {
   /// Adds the event values.
   void add_events(Sample& sample);
 
+  /// One more correction, on a fresh factorisation. @throws std::runtime_error, std::domain_error as the problem does
+  Correction sharpen(Sample& sample);
+
+  /// The completed sample nearest to s on one side (±1), at least `beyond` away; null if there is none.
+  const Sample* complete_beside(double s, double beyond, int side) const;
+
+  /// Path length of the farthest sample.
+  double reach() const;
+
   Sample& base() { return samples_.front(); }
+  const Sample& base() const { return samples_.front(); }
   const Tangent& tangent() const { return tangent_; }
   /// Path length along the base's tangent of an increment (u, dp).
   double path_length(const Vector& u, double dp) const {

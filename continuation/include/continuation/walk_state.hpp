@@ -18,7 +18,9 @@ struct WalkState {
   double usual_step = 0.0;   ///< of StepLength
   bool after_rejection = false;
   int index = -1, determinant = 0;                     ///< at (x, p); −1 and 0: unknown
+  int complex_index = 0;                               ///< at (x, p)
   int breaking_index = -1;                             ///< at (x, p); −1: unknown
+  std::optional<SmallEigenvalues> small;               ///< at (x, p)
   std::vector<EventFunction> events, previous_events;  ///< at (x, p) and at the point before
   double last_ds = 0.0;                                ///< path length between the two
   EventSigns signs;

@@ -15,9 +15,10 @@ namespace continuation {
 /// Walks one branch by pseudo-arclength continuation, a point a call.
 ///
 /// A step predicts along the unit tangent, corrects with Keller's constraint, then looks between the two
-/// points for folds (dp/ds changes sign), events (an event function changes sign) and branch points (the
-/// index changes, folds accounted for), and yields what it found in the order of the branch. A failed step
-/// leaves the state untouched and halves ds.
+/// points for folds (dp/ds changes sign and the index by an odd number), events (an event function changes
+/// sign) and branch points (the index changes), and yields what it found in the order of the branch. A failed
+/// step leaves the state untouched and halves ds; so does one that has left its branch, which shows in a
+/// corrector that leads away from the tangents, or in an index that changes where no branch point is.
 ///
 /// ```
 /// Walker walker(problem, x, p, options);
@@ -58,9 +59,29 @@ class Walker {
   const Options& options() const { return options_; }
 
  private:
-  void start();
   void advance();
+  // walker_start.cpp
+  void start();
+  bool start_regular(bool anyhow, std::string& failure);
+  bool start_singular();
+  bool start_at_given();
+  bool start_at_branch_point();
+  bool start_at_fold();
+  bool start_at_double_point();
+  void queue_branch_point(BranchPoint point);
+  void start_at(const Vector& x, const Vector& p, const Tangent& tangent);
+  // walker_step.cpp
   bool advance_once(std::string& failure);
+  bool leaves_branch(const Segment& segment, const Sample& end, std::string& failure) const;
+  bool long_step(double ds) const;
+  bool find_specials(Segment& segment, const Sample& end, const Located* turn, bool at_event,
+                     std::vector<Located>& specials, std::string& failure);
+  void accept(Segment& segment, Sample& end, const CorrectorReport& report, const End& reason);
+  // walker_stops.cpp
+  bool shorten(Segment& segment, Sample*& end, Located* turn, End& reason, std::optional<Located>& event,
+               std::string& failure);
+  bool find_functions(Segment& segment, Sample*& end, End& reason, std::optional<Located>& event,
+                      std::vector<Located>& found, std::string& failure);
   bool limit(Segment& segment, Sample*& end, Located* fold, End& reason);
   Sample* close(Segment& segment, Sample& end, Located* fold);
   void remember_start();
@@ -69,6 +90,7 @@ class Walker {
   Point special(Segment& segment, const Located& located);
   /// The walker's own state as a point.
   Point here(PointType type) const;
+  std::vector<double> function_values(const Vector& x, const Vector& p) const;
   void adapt();
 
   // walker_transition.cpp

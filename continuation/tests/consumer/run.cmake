@@ -1,0 +1,30 @@
+# Installs the library, takes the program out of the README, builds it against the installation and runs it.
+#   cmake -D LIBRARY=build -D WORK=scratch -D COMPILER=c++ -P run.cmake
+cmake_minimum_required(VERSION 3.21)
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "${ARGN}: ${status}\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+run(${CMAKE_COMMAND} --install ${LIBRARY} --prefix ${WORK}/installed)
+file(READ ${CMAKE_CURRENT_LIST_DIR}/../../README.md readme)
+string(REGEX MATCH "```cpp\n(.*)\n```\n\nThe program prints" found "${readme}")
+if(NOT found)
+  message(FATAL_ERROR "the README has no program")
+endif()
+file(WRITE ${WORK}/build/bratu.cpp "${CMAKE_MATCH_1}\n")
+run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/build -D CMAKE_BUILD_TYPE=Release
+    -D CMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=${FLAGS}" -D CMAKE_PREFIX_PATH=${WORK}/installed)
+run(${CMAKE_COMMAND} --build ${WORK}/build)
+run(${WORK}/build/bratu)
+message("${output}")
+# What the README says of the output must be in it.
+string(REGEX MATCH "The program prints the fold at `([^`]+)`" found "${readme}")
+string(FIND "${output}" "${CMAKE_MATCH_1}" at)
+if(NOT found OR at LESS 0)
+  message(FATAL_ERROR "the output is not what the README says: ${CMAKE_MATCH_1}")
+endif()
