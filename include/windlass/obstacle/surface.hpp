@@ -70,7 +70,6 @@ class Set {
   int size() const { return all_ ? static_cast<int>(all_->size()) : 0; }
   const Surface& operator[](int i) const { return *all_->at(i); }
   const SurfacePointer& pointer(int i) const { return all_->at(i); }
-  bool operator==(const Set& other) const { return all_ == other.all_; }
 
  private:
   std::shared_ptr<const std::vector<SurfacePointer>> all_;
