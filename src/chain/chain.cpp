@@ -93,7 +93,8 @@ void Chain::keep_coordinates() {
     std::vector<int> all, varied;
     for (int k = 0; k < joints_[j]->tangent(); ++k) {
       const bool along = gauges_.along && k == 0 && j == gauge_joint;
-      if (!along) varied.push_back(k);
+      const std::vector<int> fixed = joints_[j]->fixed_in_variations();
+      if (!along && std::find(fixed.begin(), fixed.end(), k) == fixed.end()) varied.push_back(k);
       const bool held = j == gauge_joint && ((gauges_.height && k == joints_[j]->height_coordinate()) ||
                                              (gauges_.spin && k == joints_[j]->spin_coordinate()) || along);
       if (!held) all.push_back(k);

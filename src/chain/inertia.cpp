@@ -33,6 +33,18 @@ int negative_eigenvalues(MatrixXd a) {
   return negative;
 }
 
+/// The same where as many eigenvalues as `neutral` are zero but for rounding, which do not count.
+int negative_but_neutral(const MatrixXd& dense, int neutral) {
+  constexpr double rounding =
+      1e-7;  // of the middle one: states are good to 1e-10, and the arcs' own singularity adds to it
+  VectorXd values = Eigen::SelfAdjointEigenSolver<MatrixXd>(dense, Eigen::EigenvaluesOnly).eigenvalues();
+  std::sort(values.begin(), values.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  const double zero = rounding * std::abs(values(values.size() / 2));
+  int negative = 0;
+  for (Eigen::Index k = 0; k < values.size(); ++k) negative += values(k) < (k < neutral ? -zero : 0.0);
+  return negative;
+}
+
 }  // namespace
 
 void Chain::add_gauges(const Numbering& numbering, Purpose purpose, const VectorXd& x,
@@ -105,7 +117,13 @@ int Chain::index(const VectorXd& x, const Loads& loads, Parity parity) const {
   const MatrixXd dense = condensed_variation(purpose, numbering, x, loads);
   int negative = 0;
   for (const Link& link : links_) negative += link.arc->negative_pivots();
-  negative += neutral_turn_ ? negative_but_turn(dense, numbering.location) : negative_eigenvalues(dense);
+  // The arc between a clamp and a line along it is about to buckle by itself, see spatial::FreeRodEnd.
+  const auto neutral = static_cast<int>(std::count_if(joints_.begin(), joints_.end(), [](const auto& joint) {
+    return !joint->fixed_in_variations().empty();
+  }));
+  negative += neutral_turn_ ? negative_but_turn(dense, numbering.location)
+              : neutral > 0 ? negative_but_neutral(dense, neutral)
+                            : negative_eigenvalues(dense);
   return negative - numbering.constraints;
 }
 

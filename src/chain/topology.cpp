@@ -41,10 +41,23 @@ std::unique_ptr<Joint> symmetric_joint(const RodKind& rod, const Topology& t) {
 /// Is the tail a formula? An infinite one always is, a finite one where its mesh says so.
 bool closed_form(const RodKind& rod, const ArcMesh& mesh) { return rod.infinite || mesh.stages == 0; }
 
-std::unique_ptr<Joint> end_joint(const RodKind& rod, const ArcMesh& tail, Side arc_side) {
+/// Axis about which a clamped end is posed with a hinge, see spatial::FreeRodEnd: next but one to a line contact along the
+/// clamp, of a rod whose arcs between bend about that axis only. States that leave the plane turn out of the clamp.
+std::optional<Eigen::Vector3d> hinge_axis(const RodKind& rod, const Topology& t, Side arc_side) {
+  const int last = static_cast<int>(t.stretches.size()) - 1, line = arc_side == Side::left ? last - 1 : 1;
+  if (last < 1 || t.stretches[line] != Stretch::line || !rod.natural.isZero()) return std::nullopt;
+  const obstacle::Surface& surface = rod.obstacles[t.obstacle(arc_side == Side::left ? last : 1)];
+  if (surface.curvature() != 0.0 || !surface.endless_along_x()) return std::nullopt;
+  return surface.chart(Eigen::Vector2d::Zero()).tangents.col(1);
+}
+
+std::unique_ptr<Joint> end_joint(const RodKind& rod, const Topology& t, const ArcMesh& tail, Side arc_side) {
   const EndKind kind = arc_side == Side::left ? rod.right : rod.left;
-  if (rod.strut)
-    return std::make_unique<spatial::FreeRodEnd>(arc_side, rod.under_thrust, kind != EndKind::clamped);
+  if (rod.strut) {
+    const bool clamped = kind == EndKind::clamped;
+    return std::make_unique<spatial::FreeRodEnd>(arc_side, rod.under_thrust, !clamped,
+                                                 clamped ? hinge_axis(rod, t, arc_side) : std::nullopt);
+  }
   if (closed_form(rod, tail))
     return std::make_unique<planar::FarEnd>(rod.spatial ? 3 : 1, rod.spatial ? 3 : 2);
   if (rod.spatial) return std::make_unique<spatial::End>(arc_side, kind == EndKind::clamped);
@@ -183,9 +196,9 @@ std::unique_ptr<Chain> build_chain(const RodKind& rod, const Topology& t,
   fixed.back() = end;
   for (int i = 0; i <= count; ++i) {
     if (i == 0)
-      joints.push_back(t.half ? symmetric_joint(rod, t) : end_joint(rod, mesh_of(0), Side::right));
+      joints.push_back(t.half ? symmetric_joint(rod, t) : end_joint(rod, t, mesh_of(0), Side::right));
     else
-      joints.push_back(i == count ? end_joint(rod, mesh_of(count - 1), Side::left)
+      joints.push_back(i == count ? end_joint(rod, t, mesh_of(count - 1), Side::left)
                                   : contact_joint(rod, all[i - 1], all[i], t.obstacle(i)));
     if (i == count) break;
     const bool leftward = i == 0 && !t.half;

@@ -202,6 +202,10 @@ Attachment FreeRodEnd::attach(Side, const double* w, const Loads& loads) const {
     at.q = rod::product(surface_frame(0.0, 0.0, 0.0),
                         rod::rotation(Vector3d::UnitZ(), 0.5 * sign * loads.twist));
   }
+  if (hinge_) {
+    at.q = rod::product(rod::rotation(*hinge_, w[under_thrust_]), at.q);
+    at.dq.col(under_thrust_) = 0.5 * rod::directors(at.q).transpose() * *hinge_;
+  }
   at.x(0) = under_thrust_ ? w[0] : sign * (1.0 - loads.shortening) * loads.half_length;
   if (under_thrust_) at.dx(0, 0) = 1.0;
   return at;
@@ -245,11 +249,13 @@ void End::adopt(const Place& place, double* w) const {
 
 void FreeRodEnd::adopt(const Place& place, double* w) const {
   if (under_thrust_) w[0] = place.r(0);
+  if (hinge_) w[under_thrust_] = 0.0;
   if (pinned_) Eigen::Map<Eigen::Vector4d>{w + under_thrust_} = place.q;
 }
 
 void FreeRodEnd::retract(const double* w, const double* dw, double* out) const {
   if (under_thrust_) out[0] = w[0] + dw[0];
+  if (hinge_) out[under_thrust_] = w[under_thrust_] + dw[under_thrust_];
   if (!pinned_) return;
   Eigen::Map<Eigen::Vector4d>{out + under_thrust_} = rod::retract(
       Eigen::Map<const Eigen::Vector4d>(w + under_thrust_), Vector3d(dw + static_cast<int>(under_thrust_)));

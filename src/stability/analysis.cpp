@@ -96,6 +96,9 @@ Stability analyse(RodProblem& given, const Vector& at_x, const Vector& p, int co
   for (const Mode& mode : all) out.eigenvalues.push_back(mode.eigenvalue);
   if (modes) out.modes = std::move(all);
   for (const chain::Contact& c : problem.profile(x, p).contacts) out.degenerate |= c.force < zero_force;
+  // An arc about to buckle by itself, see contact::spatial::FreeRodEnd: zero to second order.
+  for (int j = 0; j < problem.chain().joint_count(); ++j)
+    out.degenerate |= !problem.chain().joint(j).fixed_in_variations().empty();
   return out;
 }
 

@@ -83,8 +83,11 @@ Event event_at(Kind kind, bool clamped, double h) {
   };
   const auto residual = [&](const Eigen::VectorXd& x) {
     const State at = end(x);
+    // On the wall: no curvature there, at[1] = 0. With H = κ²/2 + n·t the same at both ends, and t too, a clamped end then
+    // has none either. The tangent at the wall is a double root, x(2) = 0 a simple one that says the same.
+    const bool by_curvature = clamped && kind != Kind::touch;
     Eigen::VectorXd f(4);
-    f << at[0], at[3] - h, kind == Kind::touch ? x(1) : at[1],
+    f << (by_curvature ? Real(x(2)) : at[0]), at[3] - h, kind == Kind::touch ? Real(x(1)) : at[1],
         kind == Kind::buckling ? x(0) * std::pow(1.0 - 2.0 * x(3), 2) / (4.0 * pi * pi) - 1.0 : x(3) - 0.5;
     return f;
   };
@@ -186,6 +189,42 @@ BOOST_AUTO_TEST_CASE(every_state_passes_its_certificate) {
     BOOST_TEST(certificate.passed(), run.states[k].topology << " at " << run.points[k].p(0) << "\n"
                                                             << verify::to_text(certificate));
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_strip_stays_on_the_wall_and_a_round_rod_turns_away_from_it) {
+  // Turned about the axis of its ends by φ, a bow of height h that the wall pushes with N gains N h φ²/2. A round rod's
+  // clamped ends do not resist (each section turns back about its tangent), those of a strip do.
+  const double h = 0.02, touch = event_at(Kind::touch, true, h).shortening,
+               line = event_at(Kind::line, true, h).shortening;
+  scene::Scene round = between_walls(true, h);
+  round.rod.bending_stiffness_2 = 1.0;
+  for (const bool is_strip : {true, false}) {
+    const Walk run = walk(is_strip ? between_walls(true, h) : round, 0.999 * line);
+    for (std::size_t k = 0; k < run.points.size(); ++k) {
+      const double at = run.points[k].p(0);
+      if (std::abs(at - touch) < 1e-6 * touch) continue;  // there the force is zero
+      BOOST_TEST(run.index[k] == (is_strip || at < touch ? 0 : 1), "at " << at << ", strip " << is_strip);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_twisted_strut_between_walls_in_space) {
+  // Its bow leaves the plane; the walls are oblique, so that no half-turn maps them to themselves.
+  scene::Scene scene = between_walls(true, 0.06);
+  scene.rod.bending_stiffness_2 = 1.0;
+  scene.ends.twist = 2.0;
+  scene.walls = {{{0.0, 1.0, 0.5}, 0.06}, {{0.0, -1.0, -0.3}, 0.06}};
+  BOOST_TEST(!scene.half_turn());
+  const Walk run = walk(scene, 0.015, false);
+  bool touched = false;
+  for (std::size_t k = 0; k < run.states.size(); ++k) {
+    touched = touched || run.states[k].joints.size() > 2u;
+    scene.ends.shortening = run.points[k].p(0);
+    const verify::Certificate certificate = verify::verify(run.states[k], scene);
+    BOOST_TEST(certificate.passed(), run.states[k].topology << " at " << run.points[k].p(0) << "\n"
+                                                            << verify::to_text(certificate));
+  }
+  BOOST_TEST(touched);
 }
 
 BOOST_AUTO_TEST_CASE(the_line_carries_its_force_at_its_edges) {

@@ -104,6 +104,11 @@ class Joint {
     return (void)w, (void)turn, (void)spin, SmallVector::Zero(tangent());
   }
 
+  /// Degrees of freedom of the equilibrium equations that the rod itself does not have: variations leave them out.
+  virtual std::vector<int> fixed_in_variations() const { return {}; }
+  /// How far an end posed without its clamp has turned out of it [rad]: zero at an equilibrium; see FreeRodEnd.
+  virtual double out_of_clamp(const double* w) const { return (void)w, 0.0; }
+
   virtual void retract(const double* w, const double* dw, double* out) const = 0;
 
   /// Coordinates of this joint when the rod there is as given: a guess.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 
 #include "windlass/contact/joint.hpp"
 #include "windlass/obstacle/cylinder.hpp"
@@ -156,14 +157,22 @@ class End final : public Joint {
 /// End of a free rod along e_x, y = z = 0; see EndKind. x is imposed by the shortening, x = ±(1 − shortening)·half_length, or
 /// the first coordinate under the dead thrust.
 ///  - clamped: frame turned by ±twist/2 about e_x;
-///  - pinned: free of moment, the frame turns as it likes: coordinates (q).
+///  - pinned: free of moment, the frame turns as it likes: coordinates (q);
+///  - clamped beside a straight line contact along e_x, with a hinge for its clamp: a turn about `hinge` is one more
+///    coordinate. H = m²/2B + n·d₃ is the same at both ends of the flat arc between, and so is n·d₃: the moment vanishes at
+///    the clamp as it does at the edge. With the clamp imposed the equations have a double root there (the arc is a whole
+///    wave, P ℓ² = 4π² B, about to buckle by itself); with its moment, a simple one, and the turn is zero by H.
 class FreeRodEnd final : public Joint {
  public:
-  FreeRodEnd(Side arc_side, bool under_thrust, bool pinned)
-      : arc_(arc_side), under_thrust_(under_thrust), pinned_(pinned) {}
+  FreeRodEnd(Side arc_side, bool under_thrust, bool pinned, std::optional<Eigen::Vector3d> hinge = {})
+      : arc_(arc_side), under_thrust_(under_thrust), pinned_(pinned), hinge_(std::move(hinge)) {}
   JointKind kind() const override { return JointKind::end; }
-  int ambient() const override { return under_thrust_ + (pinned_ ? 4 : 0); }
-  int tangent() const override { return under_thrust_ + (pinned_ ? 3 : 0); }
+  int ambient() const override { return under_thrust_ + (pinned_ ? 4 : hinge_ ? 1 : 0); }
+  int tangent() const override { return under_thrust_ + (pinned_ ? 3 : hinge_ ? 1 : 0); }
+  std::vector<int> fixed_in_variations() const override {
+    return hinge_ ? std::vector<int>{under_thrust_} : std::vector<int>{};
+  }
+  double out_of_clamp(const double* w) const override { return hinge_ ? w[under_thrust_] : 0.0; }
   int spin_coordinate() const override { return pinned_ ? under_thrust_ + 2 : -1; }
   std::vector<int> out_of_plane() const override {
     return pinned_ ? std::vector<int>{under_thrust_, under_thrust_ + 2} : std::vector<int>{};
@@ -177,6 +186,7 @@ class FreeRodEnd final : public Joint {
  private:
   Side arc_;
   bool under_thrust_, pinned_;
+  std::optional<Eigen::Vector3d> hinge_;  ///< its axis
 };
 
 }  // namespace windlass::contact::spatial
