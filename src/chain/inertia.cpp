@@ -39,7 +39,9 @@ int negative_but_neutral(const MatrixXd& dense, int neutral) {
       1e-7;  // of the middle one: states are good to 1e-10, and the arcs' own singularity adds to it
   VectorXd values = Eigen::SelfAdjointEigenSolver<MatrixXd>(dense, Eigen::EigenvaluesOnly).eigenvalues();
   std::sort(values.begin(), values.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
-  const double zero = rounding * std::abs(values(values.size() / 2));
+  // An arc that is singular by itself leaves an entry as large as 1e10, and its rounding to the others.
+  const double zero =
+      rounding * std::abs(values(values.size() / 2)) + 1e-14 * std::abs(values(values.size() - 1));
   int negative = 0;
   for (Eigen::Index k = 0; k < values.size(); ++k) negative += values(k) < (k < neutral ? -zero : 0.0);
   return negative;

@@ -44,10 +44,19 @@ double free_bow(const scene::Scene& scene) {
 std::optional<Started> bowed_strut(const scene::Scene& scene) {
   const double goal = *scene.ends.shortening, length = scene.rod.length;
   const double moderate = free_bow(scene);
-  const double critical = 4.0 * M_PI * M_PI * scene.rod.bending_stiffness / (length * length);
+  const bool pinned =
+      scene.ends.left_kind() != scene::EndKind::clamped && scene.ends.right_kind() != scene::EndKind::clamped;
+  const double critical =
+      (pinned ? 1.0 : 4.0) * M_PI * M_PI * scene.rod.bending_stiffness / (length * length);
   scene::Scene near = scene;
   near.ends.shortening = moderate;
-  const chain::Profile bow = chain::strut_profile(loads_of(near), 2.0 * std::sqrt(moderate));
+  contact::Loads loads = loads_of(near);
+  if (pinned) loads.half_length *= 2.0;  // half a wave between pins, a whole one between clamps
+  chain::Profile bow = chain::strut_profile(loads, 2.0 * std::sqrt(moderate));
+  if (pinned) {
+    chain::Piece& shape = bow.pieces.front();
+    shape.r.row(1).array() -= bow.at(0.5 * loads.half_length).r(1);
+  }
   std::optional<Started> from = strut_near(near, bow, critical, {"ends.shortening"});
   // Towards none by factors: the amplitude goes like the square root.
   for (double at = moderate; from && at > goal;) {

@@ -77,7 +77,9 @@ RodCurve dense_curve(const equilibrium::Solution& solution, double spacing) {
   for (std::size_t k = 0; k < solution.arcs.size(); ++k) {
     const ArcRecord& arc = solution.arcs[k];
     const Index last = arc.s.size() - 1;
-    const auto normal = solution.has_cylinder ? std::nullopt : std::optional(solution.joints[k].normal);
+    const auto normal = solution.has_cylinder || k >= solution.joints.size()
+                            ? std::nullopt
+                            : std::optional(solution.joints[k].normal);
     for (Index i = 0; i < last; ++i) {
       const double h = arc.s[i + 1] - arc.s[i];
       const int pieces = std::clamp(static_cast<int>(std::ceil(h / spacing)), 1, 40);
@@ -98,7 +100,9 @@ std::vector<PointForce> point_forces(const equilibrium::Solution& solution) {
   std::vector<PointForce> forces;
   for (const auto& joint : solution.joints) {
     if (joint.kind != equilibrium::JointKind::touch && joint.kind != equilibrium::JointKind::edge) continue;
-    forces.push_back({joint.s, joint.r, joint.normal, joint.force});
+    const Vector3d outward =
+        solution.has_cylinder ? Vector3d(joint.r.x(), joint.r.y(), 0.0).normalized() : joint.normal;
+    forces.push_back({joint.s, joint.r, outward, joint.force});
   }
   return forces;
 }

@@ -172,10 +172,13 @@ BOOST_AUTO_TEST_CASE(touch_line_contact_and_its_buckling_are_where_shooting_find
         const Point& point = run.points[events[k]];
         const Event expected = event_at(kinds[k], clamped, h);
         BOOST_TEST(point.after == after[k]);
-        BOOST_TEST(std::abs(point.p(0) / expected.shortening - 1.0) < 1e-8,
+        // Between clamps line contact begins where each half is about to buckle by itself: the branch crosses another one
+        // there, and its place is good to the root of rounding only.
+        const double bound = clamped && kinds[k] == Kind::line ? 1e-7 : 1e-8;
+        BOOST_TEST(std::abs(point.p(0) / expected.shortening - 1.0) < bound,
                    "clamped " << clamped << ", h = " << h << ", event " << k << ": " << point.p(0)
                               << ", shooting " << expected.shortening);
-        BOOST_TEST(std::abs(run.states[events[k]].end_force / expected.thrust - 1.0) < 1e-8);
+        BOOST_TEST(std::abs(run.states[events[k]].end_force / expected.thrust - 1.0) < bound);
       }
     }
 }
