@@ -28,7 +28,7 @@ const char* type_name(PointType type) {
 
 /// Where a point lies, for people: the loads of a capstan, what a strut carries.
 std::string place(const output::BranchRow& row) {
-  if (row.topology != "strut") return fmt::format("T = {:.10g}  phi = {:.10g}", row.T, row.phi);
+  if (row.phi > 0.0) return fmt::format("T = {:.10g}  phi = {:.10g}", row.T, row.phi);
   const std::string where =
       fmt::format("end_force = {:.10g}  shortening = {:.10g}", row.end_force, row.shortening);
   return row.end_moment == 0.0 ? where : where + fmt::format("  end_moment = {:.10g}", row.end_moment);

@@ -2,6 +2,7 @@
 
 #include "app/commands.hpp"
 #include "windlass/measurement/measurements.hpp"
+#include "windlass/obstacle/scene_obstacles.hpp"
 #include "windlass/output/plot.hpp"
 #include "windlass/scene/error.hpp"
 
@@ -29,6 +30,7 @@ int run_plot(const RunRequest& request) {
   output::PlotOptions options;
   options.formats = request.formats;
   options.units = scene.units;
+  options.obstacles = obstacle::obstacles_of(scene);
   options.folder = request.common.out;
   if (!request.csv.empty()) options.measured = measured_forces(request.csv, scene);
   if (!request.label.empty()) options.points = {request.label};

@@ -5,6 +5,7 @@
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "app/stored_point.hpp"
+#include "windlass/obstacle/scene_obstacles.hpp"
 #include "windlass/output/report.hpp"
 #include "windlass/petsc/session.hpp"
 
@@ -16,6 +17,7 @@ int run_report(const RunRequest& request) {
   const output::Run run = output::read_run(request.run);
   output::ReportOptions options;
   options.units = scene.units;
+  options.obstacles = obstacle::obstacles_of(scene);
   options.file = request.common.out;
   Progress progress(request.common.quiet);
   stability::SpectrumSolver solver;

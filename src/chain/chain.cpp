@@ -19,7 +19,7 @@ namespace {
 /// An infinite tail is sampled this many decay lengths √(B/T) out: exp(−40) is below rounding.
 constexpr double tail_decay_lengths = 40.0;
 
-/// A contact's place on the cylinder is its first coordinate, the angle, and in space its second, the height.
+/// A contact's place on its obstacle is its first coordinate and in space its second; on the cylinder angle and height.
 constexpr int rests = 3, rest_of_s = 0, rest_of_angle = 1, rest_of_height = 2;
 
 /// value + rest + change, rounded once; what is left becomes the new rest (Knuth's two-sum).
@@ -93,7 +93,8 @@ void Chain::keep_coordinates() {
     std::vector<int> all, varied;
     for (int k = 0; k < joints_[j]->tangent(); ++k) {
       const bool along = gauges_.along && k == 0 && j == gauge_joint;
-      if (!along) varied.push_back(k);
+      const std::vector<int> fixed = joints_[j]->fixed_in_variations();
+      if (!along && std::find(fixed.begin(), fixed.end(), k) == fixed.end()) varied.push_back(k);
       const bool held = j == gauge_joint && ((gauges_.height && k == joints_[j]->height_coordinate()) ||
                                              (gauges_.spin && k == joints_[j]->spin_coordinate()) || along);
       if (!held) all.push_back(k);
@@ -165,23 +166,18 @@ double Chain::length(const VectorXd& x, const Loads& loads, int link) const {
 }
 
 contact::SmallVector Chain::rise(const VectorXd& x, const Placed& placed, int link) const {
-  if (!is_contact(link) || !is_contact(link + 1)) return placed.right.x - placed.left.x;
+  if (!is_contact(link) || !is_contact(link + 1) || joints_[link]->surface() != joints_[link + 1]->surface())
+    return placed.right.x - placed.left.x;
   const auto difference = [&](int coordinate, int rest) {
     return coordinates(x, link + 1)[coordinate] - coordinates(x, link)[coordinate] +
            (x(rest_at_[link + 1] + rest) - x(rest_at_[link] + rest));
   };
   const bool spatial = joints_[link]->height_coordinate() >= 0;
-  const double turn = difference(0, rest_of_angle), middle = coordinates(x, link)[0] + 0.5 * turn;
-  const Eigen::Index size = placed.left.x.size();
-  SmallVector out(size);
-  if (size == (spatial ? 2 : 1)) {
-    out(0) = turn;  // of a line, on the unrolled cylinder
-  } else {
-    const double chord = 2.0 * std::sin(0.5 * turn);  // of places (sin, −cos)
-    out.head(2) << chord * std::cos(middle), chord * std::sin(middle);
-  }
-  if (spatial) out(size - 1) = difference(1, rest_of_height);
-  return out;
+  const Eigen::Vector2d step(difference(0, rest_of_angle), spatial ? difference(1, rest_of_height) : 0.0);
+  const Eigen::Index size = placed.left.x.size(), on_line = spatial ? 2 : 1;
+  if (size == on_line) return step.head(size);  // on the unrolled surface
+  const Joint& joint = *joints_[link];
+  return joint.surface()->rise(joint.on_surface(coordinates(x, link)), step).head(size);
 }
 
 VectorXd Chain::force(const VectorXd& x, const Loads& loads, int link) const {

@@ -15,7 +15,7 @@ constexpr int frame = 4, surface = 2;  // ambient configurations: a unit quatern
 /// The far end of a closed-form tail has no frame: q = 0.
 double off_plane(const Eigen::Map<const Eigen::VectorXd>& q) {
   if (q.isZero(0.0)) return 0.0;
-  if (q.size() == surface) return q.cwiseAbs().maxCoeff();
+  if (q.size() == surface) return q.array().sin().abs().maxCoeff();  // either side up, either way along
   const Eigen::Matrix3d r = rod::directors(Eigen::Map<const Eigen::Vector4d>(q.data()));
   return std::max(std::abs(r(2, 0)), std::abs(r(2, 2)));
 }
@@ -45,6 +45,8 @@ std::vector<Eigen::Index> Chain::out_of_plane() const {
 bool Chain::is_flat(const std::vector<Placed>& placed) const {
   if (outside_.empty()) return false;
   constexpr double rounding = 1e-9;  // [ρ, rad]
+  for (const auto& joint : joints_)
+    if (joint->surface() && !joint->surface()->keeps_flat()) return false;
   for (int i = 0; i < link_count(); ++i) {
     const Placed& p = placed[i];
     const int size = links_[i].arc->ambient();

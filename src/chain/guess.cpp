@@ -5,6 +5,7 @@
 
 #include "windlass/bvp/collocation_table.hpp"
 #include "windlass/contact/spatial_joints.hpp"
+#include "windlass/obstacle/cylinder.hpp"
 
 namespace windlass::chain {
 
@@ -13,18 +14,20 @@ using Eigen::Vector3d;
 namespace {
 
 /// Momenta conserved on a line contact, from the state in its middle.
-void adopt_force(const RodKind& rod, Stretch stretch, const Profile::At& at, double* n, int forces) {
-  if (stretch != Stretch::line) {
+void adopt_force(const obstacle::Surface* surface, const Profile::At& at, double* n, int forces) {
+  if (!surface) {
     for (int k = 0; k < forces; ++k) n[k] = at.n(k);
     return;
   }
-  n[0] = (at.m + at.r.cross(at.n))(2);
-  if (rod.spatial) n[1] = at.n(2);
+  const Eigen::Vector2d on_line =
+      rod::line_forces(*surface, surface->coordinates(at.r, at.angle), at.r, at.n, at.m);
+  for (int k = 0; k < forces; ++k) n[k] = on_line(k);
 }
 
-/// @param twist  of a line contact, at its start on entry and at its last interior node on return [rad]
-void adopt_interior(const RodKind& rod, Stretch stretch, const Arc& arc, const Profile& profile, double begin,
-                    double length, double& twist, double* out) {
+/// @param surface  of a line contact, else null
+/// @param twist    of a line contact, at its start on entry and at its last interior node on return [rad]
+void adopt_interior(const RodKind& rod, const obstacle::Surface* surface, const Arc& arc,
+                    const Profile& profile, double begin, double length, double& twist, double* out) {
   const std::vector<double> mesh = arc.mesh();
   const VectorXd& points = bvp::CollocationTable::get(arc.stages()).lobatto;
   for (int k = 1; k <= arc.interior_nodes(); ++k) {
@@ -32,10 +35,11 @@ void adopt_interior(const RodKind& rod, Stretch stretch, const Arc& arc, const P
     const double sigma = mesh[e] + (mesh[e + 1] - mesh[e]) * points(k % arc.stages());
     const Profile::At at = profile.at(begin + length * sigma);
     double* q = out + (k - 1) * arc.ambient();
-    if (stretch == Stretch::line) {
-      const Vector3d c = contact::spatial::surface_coordinates(at.q, at.angle);
-      q[0] = c(1);
-      q[1] = twist += std::remainder(c(2) - twist, 2.0 * M_PI);
+    if (surface) {
+      const Eigen::Vector2d c = contact::spatial::surface_coordinates(
+          at.q, surface->base_frame(surface->coordinates(at.r, at.angle)));
+      q[0] = c(0);
+      q[1] = twist += std::remainder(c(1) - twist, 2.0 * M_PI);
     } else if (rod.spatial) {
       for (int i = 0; i < 4; ++i) q[i] = at.q(i);
     } else {
@@ -46,14 +50,15 @@ void adopt_interior(const RodKind& rod, Stretch stretch, const Arc& arc, const P
 
 /// Interior of a line contact in space. Frames give its material twist up to whole turns, which long coils make: they
 /// are counted from the edge on the left, or the mid-point of a half chain, and the joint on the right agrees.
-void adopt_line(const RodKind& rod, const Chain& chain, int link, const Profile& profile, double begin,
-                double length, VectorXd& x) {
+void adopt_line(const RodKind& rod, const obstacle::Surface& surface, const Chain& chain, int link,
+                const Profile& profile, double begin, double length, VectorXd& x) {
   using contact::spatial::Edge;
   const Arc& arc = *chain.link(link).arc;
   const auto is_edge = [&](int joint) { return chain.joint(joint).kind() == contact::JointKind::edge; };
-  double twist = is_edge(link) ? Edge::twist(chain.coordinates(x, link)) : 0.0;
+  double twist =
+      Edge::twist(chain.coordinates(x, link));  // a section where the half-turn meets the line has it, too
   double* interior = chain.interior(x, link);
-  adopt_interior(rod, Stretch::line, arc, profile, begin, length, twist, interior);
+  adopt_interior(rod, &surface, arc, profile, begin, length, twist, interior);
   const auto turns = [](double angle) { return 2.0 * M_PI * std::round(angle / (2.0 * M_PI)); };
   if (is_edge(link + 1)) {
     double& end = Edge::twist(chain.coordinates(x, link + 1));
@@ -101,13 +106,15 @@ VectorXd guess_state(const Chain& chain, const Topology& topology, const RodKind
   for (int i = 0; i < chain.link_count(); ++i) {
     const Arc& arc = *chain.link(i).arc;
     const double begin = s[i], length = s[i + 1] - s[i];
+    const obstacle::Surface* surface =
+        kinds[i] == Stretch::line ? &rod.obstacles[topology.obstacle(i)] : nullptr;
     if (chain.link(i).pull == 0)
-      adopt_force(rod, kinds[i], profile.at(begin + 0.5 * length), chain.force(x, i), arc.forces());
+      adopt_force(surface, profile.at(begin + 0.5 * length), chain.force(x, i), arc.forces());
     double no_twist = 0.0;
-    if (kinds[i] == Stretch::line && rod.spatial)
-      adopt_line(rod, chain, i, profile, begin, length, x);
+    if (surface && rod.spatial)
+      adopt_line(rod, *surface, chain, i, profile, begin, length, x);
     else if (arc.interior_nodes() > 0)
-      adopt_interior(rod, kinds[i], arc, profile, begin, length, no_twist, chain.interior(x, i));
+      adopt_interior(rod, nullptr, arc, profile, begin, length, no_twist, chain.interior(x, i));
   }
   return x;
 }
@@ -168,7 +175,8 @@ Profile capstan_profile(double tension, double angle, double half_length, double
     d_before = d;
     tail.s(k) = contact + d;
     set_planar(tail, k, heading, r, pull, 2.0 * b * rate * std::sin(0.5 * psi));
-    const double turn = std::atan2(r(0), -r(1)), last = k == 0 ? contact : tail.angle(k - 1);
+    const double turn = obstacle::Cylinder::angle({r(0), r(1), 0.0}),
+                 last = k == 0 ? contact : tail.angle(k - 1);
     tail.angle(k) = last + std::remainder(turn - last, 2.0 * M_PI);
   }
   out.pieces.push_back(tail);

@@ -9,6 +9,24 @@ namespace windlass::chain {
 using contact::JointKind;
 using contact::Parity;
 
+namespace {
+
+/// Number of eigenvalues below zero of a symmetric matrix where as many eigenvalues as `neutral` are zero but for rounding, which do not count.
+int negative_but_neutral(const MatrixXd& dense, int neutral) {
+  constexpr double rounding =
+      1e-7;  // of the middle one: states are good to 1e-10, and the arcs' own singularity adds to it
+  VectorXd values = Eigen::SelfAdjointEigenSolver<MatrixXd>(dense, Eigen::EigenvaluesOnly).eigenvalues();
+  std::sort(values.begin(), values.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  // An arc that is singular by itself leaves an entry as large as 1e10, and its rounding to the others.
+  const double zero =
+      rounding * std::abs(values(values.size() / 2)) + 1e-14 * std::abs(values(values.size() - 1));
+  int negative = 0;
+  for (Eigen::Index k = 0; k < values.size(); ++k) negative += values(k) < (k < neutral ? -zero : 0.0);
+  return negative;
+}
+
+}  // namespace
+
 void Chain::add_gauges(const Numbering& numbering, Purpose purpose, const VectorXd& x,
                        MatrixXd& dense) const {
   for (int j = 0; j < joint_count(); ++j) {
@@ -84,7 +102,13 @@ int Chain::index(const VectorXd& x, const Loads& loads, Parity parity) const {
   const MatrixXd dense = condensed_variation(purpose, numbering, x, loads);
   int negative = 0;
   for (const Link& link : links_) negative += link.arc->negative_pivots();
-  negative += neutral_turn_ ? negative_but_turn(dense, numbering.location) : SymmetricFactors(dense).negative();
+  // The arc between a clamp and a line along it is about to buckle by itself, see spatial::FreeRodEnd.
+  const auto neutral = static_cast<int>(std::count_if(joints_.begin(), joints_.end(), [](const auto& joint) {
+    return !joint->fixed_in_variations().empty();
+  }));
+  negative += neutral_turn_ ? negative_but_turn(dense, numbering.location)
+              : neutral > 0 ? negative_but_neutral(dense, neutral)
+                            : SymmetricFactors(dense).negative();
   return negative - numbering.constraints;
 }
 

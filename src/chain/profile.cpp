@@ -5,6 +5,7 @@
 
 #include "windlass/bvp/collocation_table.hpp"
 #include "windlass/contact/spatial_joints.hpp"
+#include "windlass/obstacle/cylinder.hpp"
 
 namespace windlass::chain {
 
@@ -13,8 +14,6 @@ using contact::Side;
 using Eigen::Vector3d;
 
 namespace {
-
-Vector3d outward(double a) { return {std::sin(a), -std::cos(a), 0.0}; }
 
 /// Frame of a planar rod whose tangent makes the angle θ with e_x.
 rod::Quaternion flat_frame(double theta) {
@@ -34,62 +33,60 @@ void resize(Piece& piece, Eigen::Index count) {
   piece.inclination.resize(count);
 }
 
-/// Planar line contact: n = n_t t, m = B (1 − κ̂) e_z, p = n_t = n_a − m.
+/// Planar line contact round the circle: n = n_t t, m = B (1 − κ̂) e_z, p = n_t = n_a − m.
 void sample_planar_line(const bvp::ArcSamples& samples, const RodKind& rod, double a0, double torque,
                         Piece& piece) {
   const double moment = rod.bending_stiffness * (1.0 - rod.natural_curvature()), tension = torque - moment;
   for (Eigen::Index k = 0; k < samples.sigma.size(); ++k) {
     const double a = a0 + samples.displacement(0, k);
     piece.angle(k) = a;
-    piece.r.col(k) = outward(a);
+    piece.r.col(k) = obstacle::Cylinder::outward(a);
     piece.q.col(k) = flat_frame(a);
-    piece.n.col(k) = tension * Vector3d(std::cos(a), std::sin(a), 0.0);
+    piece.n.col(k) = tension * obstacle::Cylinder::around(a);
     piece.m.col(k) = Vector3d(0.0, 0.0, moment);
     piece.p(k) = tension;
   }
 }
 
-/// Line contact in space. In the Darboux frame D₁ = N, D₂ = t×N, D₃ = t, with B = EI, m₃ the twisting moment:
-///     m = (Bψ', −B cos²ψ, m₃),   n_θ = n_a − m₃ sin ψ − B cos³ψ,
-///     n₁ = ψ'(m₃ − 3B sin ψ cos ψ),  n₂ = n_θ sin ψ − n_z cos ψ,  n₃ = n_θ cos ψ + n_z sin ψ,
-///     Bψ'' = n₂ + m₃ cos²ψ − B sin ψ cos³ψ,
-///     p = −n₁' + cos ψ n_θ,  n₁' = ψ''(m₃ − 3B sin ψ cos ψ) − 3Bψ'² cos 2ψ      (m₃' = 0).
-void sample_surface(const bvp::ArcSamples& samples, const RodKind& rod, const Eigen::Vector2d& start,
-                    const VectorXd& n, Piece& piece) {
-  const double b = rod.bending_stiffness;
+/// Line contact in space, see rod/line_contact.hpp.
+void sample_surface(const bvp::ArcSamples& samples, const RodKind& rod, const obstacle::Surface& surface,
+                    const Eigen::Vector2d& start, const Eigen::Vector2d& n, Piece& piece) {
+  const rod::Material material = rod.material();
   for (Eigen::Index k = 0; k < samples.sigma.size(); ++k) {
-    const double a = start(0) + samples.displacement(0, k), z = start(1) + samples.displacement(1, k);
-    const double psi = samples.q(0, k), chi = samples.q(1, k), c = std::cos(psi), s = std::sin(psi);
-    const double slope = samples.momentum(0, k) / b, m3 = samples.momentum(1, k);
-    const double around = n(0) - m3 * s - b * c * c * c;
-    const double n1 = slope * (m3 - 3.0 * b * s * c), n2 = around * s - n(1) * c, n3 = around * c + n(1) * s;
-    const double bend = (n2 + m3 * c * c - b * s * c * c * c) / b;
-    const Vector3d normal = outward(a), round(std::cos(a), std::sin(a), 0.0), up = Vector3d::UnitZ();
-    const Vector3d t = c * round + s * up, binormal = s * round - c * up;
-    piece.angle(k) = a;
-    piece.r.col(k) = normal + z * up;
-    piece.q.col(k) = contact::spatial::surface_frame(a, psi, chi);
-    piece.n.col(k) = n1 * normal + n2 * binormal + n3 * t;
-    piece.m.col(k) = b * slope * normal - b * c * c * binormal + m3 * t;
-    piece.p(k) = c * around - bend * (m3 - 3.0 * b * s * c) + 3.0 * b * slope * slope * (c * c - s * s);
+    const Eigen::Vector2d u = start + samples.displacement.col(k).head<2>(), q = samples.q.col(k).head<2>();
+    const rod::LineSection at = rod::line_section(surface, material, q, samples.momentum.col(k).head<2>(), n);
+    const obstacle::Chart here = surface.chart(u);
+    const double c = std::cos(q(0)), s = std::sin(q(0));
+    Eigen::Matrix3d darboux;
+    darboux << here.normal, here.tangents * Eigen::Vector2d(s, -c), here.tangents * Eigen::Vector2d(c, s);
+    piece.angle(k) = surface.turn(u);
+    piece.r.col(k) = here.r;
+    piece.q.col(k) = contact::spatial::surface_frame(surface.base_frame(u), q(0), q(1));
+    piece.n.col(k) = darboux * at.n;
+    piece.m.col(k) = darboux * at.m;
+    piece.p(k) = at.pressure;
   }
 }
 
-/// ∫ p ds by Lobatto quadrature of cos ψ n_θ, and the jump of n₁ taken exactly.
+/// ∫ p ds by Lobatto quadrature of the hoop part, and the jump of n·N taken exactly.
 double surface_force(const Piece& piece, const bvp::ArcSamples& samples, const RodKind& rod,
-                     const VectorXd& n, double length) {
+                     const obstacle::Surface& surface, const Eigen::Vector2d& start, const Eigen::Vector2d& n,
+                     double length) {
   const Eigen::Index last = piece.s.size() - 1;
-  const Vector3d at_start = outward(piece.angle(0)), at_end = outward(piece.angle(last));
-  double sum = at_start.dot(piece.n.col(0)) - at_end.dot(piece.n.col(last));
+  const auto normal = [&](Eigen::Index k) {
+    return surface.chart(start + samples.displacement.col(k).head<2>()).normal;
+  };
+  const rod::Material material = rod.material();
+  double sum = normal(0).dot(piece.n.col(0)) - normal(last).dot(piece.n.col(last));
   const auto& table = bvp::CollocationTable::get(piece.stride);
   for (std::size_t e = 0; e + 1 < samples.nodes.size(); ++e) {
     const int first = samples.nodes[e];
     const double h = (samples.sigma(samples.nodes[e + 1]) - samples.sigma(first)) * length;
     for (int g = 0; g < table.stages; ++g) {
-      double psi = 0.0;
-      for (int i = 0; i <= table.stages; ++i) psi += table.value(g, i) * samples.q(0, first + i);
-      const double c = std::cos(psi), m3 = samples.momentum(1, first);
-      sum += h * table.weight(g) * c * (n(0) - m3 * std::sin(psi) - rod.bending_stiffness * c * c * c);
+      Eigen::Vector2d q = Eigen::Vector2d::Zero();
+      for (int i = 0; i <= table.stages; ++i) q += table.value(g, i) * samples.q.col(first + i).head<2>();
+      const Eigen::Vector2d momentum = samples.momentum.col(first).head<2>();
+      sum += h * table.weight(g) * rod::line_section(surface, material, q, momentum, n).hoop;
     }
   }
   return sum;
@@ -117,7 +114,7 @@ void sample_free(const bvp::ArcSamples& samples, const RodKind& rod, const Vecto
       m = m_left + n.cross(r - r_left);
     }
     piece.m.col(k) = m;
-    piece.angle(k) = std::atan2(r(0), -r(1));
+    piece.angle(k) = obstacle::Cylinder::angle(r);
   }
 }
 
@@ -140,12 +137,6 @@ void unroll(std::vector<Piece>& pieces) {
   }
 }
 
-}  // namespace
-
-double gap(const Vector3d& r) { return std::hypot(r(0), r(1)) - 1.0; }
-
-namespace {
-
 /// Arclengths of the samples of a link.
 void place_samples(const Chain& chain, const VectorXd& x, const Loads& loads, int link,
                    const Chain::Placed& placed, const bvp::ArcSamples& samples, Piece& piece) {
@@ -156,21 +147,39 @@ void place_samples(const Chain& chain, const VectorXd& x, const Loads& loads, in
   if (!std::isinf(end)) piece.s(piece.s.size() - 1) = end;
 }
 
+/// Margin against buckling off the obstacle, of a straight line without pressure: where it carries none but rounding.
+std::optional<double> buckling(const Piece& line, const bvp::ArcSamples& samples, const RodKind& rod,
+                               const obstacle::Surface& surface, double length) {
+  constexpr double rounding = 1e-9;
+  const double force = std::max(1.0, line.n.col(0).norm()), unit = rod.unit_length;
+  const double bend = samples.momentum.row(0).cwiseAbs().maxCoeff();
+  if (line.p.cwiseAbs().maxCoeff() > rounding * force / unit || bend > rounding * force * unit)
+    return std::nullopt;
+  const double tension = line.n.col(0).dot(rod::directors(line.q.col(0)).col(2));
+  return rod::buckling_margin(surface, rod.material(), samples.q(1, 0), tension, length);
+}
+
 /// One link as a curve, but for what `profile` fills in from its neighbours.
 Piece sample_link(const Chain& chain, const RodKind& rod, const VectorXd& x, const Loads& loads, int link,
-                  Stretch stretch) {
+                  const Topology& topology) {
+  const Stretch stretch = topology.stretches[link];
   const Chain::Placed placed = chain.place(x, loads, link);
   const Arc& arc = *chain.link(link).arc;
   const bvp::ArcSamples samples = arc.sample(placed.point());
   Piece piece;
   piece.stretch = stretch;
+  if (stretch == Stretch::line) piece.obstacle = topology.obstacle(link);
   piece.stride = arc.elements() > 0 ? arc.stages() : 1;
   resize(piece, samples.sigma.size());
   place_samples(chain, x, loads, link, placed, samples, piece);
   if (stretch == Stretch::line) {
     if (rod.spatial) {
-      sample_surface(samples, rod, placed.left.x.head<2>(), placed.n, piece);
-      piece.force = surface_force(piece, samples, rod, placed.n, placed.length);
+      const obstacle::Surface& surface = rod.obstacles[piece.obstacle];
+      const Eigen::Vector2d start = placed.left.x.head<2>(), along = placed.n.head<2>();
+      const double whole = topology.half && link == 0 ? 2.0 * placed.length : placed.length;
+      sample_surface(samples, rod, surface, start, along, piece);
+      piece.force = surface_force(piece, samples, rod, surface, start, along, placed.length);
+      piece.buckling = buckling(piece, samples, rod, surface, whole);
     } else {
       sample_planar_line(samples, rod, placed.left.x(0), placed.n(0), piece);
       piece.force = piece.p(0) * placed.length;
@@ -201,8 +210,8 @@ Piece sample_link(const Chain& chain, const RodKind& rod, const VectorXd& x, con
 }
 
 /// Outward force on the rod at a contact joint, from the internal forces on its two sides.
-double contact_force(const Vector3d& n_before, const Vector3d& n_after, double angle) {
-  return (n_before - n_after).dot(outward(angle));
+double contact_force(const Vector3d& n_before, const Vector3d& n_after, const Vector3d& normal) {
+  return (n_before - n_after).dot(normal);
 }
 
 /// n(−s) at a symmetry point: the half-turn about e_y of n(s), reversed.
@@ -218,9 +227,10 @@ double copies(const Topology& topology, int joint) {
 Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod, const VectorXd& x,
                 const Loads& loads) {
   Profile out;
-  const std::vector<Stretch>& kinds = topology.stretches;
+  out.obstacles = rod.obstacles;
+  out.unit_length = rod.unit_length;
   for (int i = 0; i < chain.link_count(); ++i)
-    out.pieces.push_back(sample_link(chain, rod, x, loads, i, kinds[i]));
+    out.pieces.push_back(sample_link(chain, rod, x, loads, i, topology));
   unroll(out.pieces);
   for (int j = 0; j < chain.joint_count(); ++j) {
     if (!chain.is_contact(j)) continue;
@@ -228,17 +238,22 @@ Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod
     c.joint = j;
     c.edge = chain.joint(j).kind() == JointKind::edge;
     c.s = chain.arclength(x, loads, j);
-    c.angle = chain.joint(j).angle(chain.coordinates(x, j));
-    c.z = chain.joint(j).height(chain.coordinates(x, j));
+    const Joint& joint = chain.joint(j);
+    const obstacle::Chart here = joint.chart(chain.coordinates(x, j));
+    c.obstacle = topology.obstacle(j);
+    c.angle = joint.surface()->turn(joint.on_surface(chain.coordinates(x, j)));
+    c.r = here.r;
+    c.normal = here.normal;
+    c.z = here.r(2);
     const Piece& after = out.pieces[j];
     const Vector3d n_before =
         j > 0 ? Vector3d(out.pieces[j - 1].n.rightCols<1>()) : reflected(after.n.col(0));
-    c.force = contact_force(n_before, after.n.col(0), c.angle);
+    c.force = contact_force(n_before, after.n.col(0), c.normal);
     const Eigen::Matrix3d d = rod::directors(after.q.col(0));
     const Vector3d u = rod.natural + (d.transpose() * after.m.col(0)).cwiseQuotient(rod.stiffness);
     const Vector3d curvature = u(1) * d.col(0) - u(0) * d.col(1);
-    const double around = d.col(2).dot(Vector3d(std::cos(c.angle), std::sin(c.angle), 0.0));
-    c.gap_curvature = curvature.dot(outward(c.angle)) + around * around;
+    const Eigen::Vector2d along = here.tangents.transpose() * d.col(2);
+    c.gap_curvature = curvature.dot(c.normal) + along.dot(here.bend * along);
     out.contacts.push_back(c);
   }
   // Free pieces take their turn count from a neighbouring contact.
@@ -267,7 +282,7 @@ double total_contact_force(const Chain& chain, const Topology& topology, const R
   for (int i = 0; i < chain.link_count(); ++i) {
     Vector3d n_first = Vector3d::Zero(), n_last;
     if (kinds[i] == Stretch::line) {
-      const Piece piece = sample_link(chain, rod, x, loads, i, kinds[i]);
+      const Piece piece = sample_link(chain, rod, x, loads, i, topology);
       sum += piece.force * (topology.half ? 2.0 : 1.0);
       n_first = piece.n.col(0), n_last = piece.n.rightCols<1>();
     } else {  // the force is constant on a free arc
@@ -277,7 +292,7 @@ double total_contact_force(const Chain& chain, const Topology& topology, const R
     }
     if (chain.is_contact(i))
       sum += copies(topology, i) * contact_force(i > 0 ? n_before : reflected(n_first), n_first,
-                                                 chain.joint(i).angle(chain.coordinates(x, i)));
+                                                 chain.joint(i).chart(chain.coordinates(x, i)).normal);
     n_before = n_last;
   }
   return sum;

@@ -113,7 +113,9 @@ VectorXd Chain::as_increment(const VectorXd& variation, Parity parity) const {
   for (int j = parity == Parity::odd && half() ? 1 : 0; j < joint_count(); ++j) {
     const std::vector<int>& varied = kept(purpose, j);
     for (std::size_t k = 0; k < kept_[j].size(); ++k) {
-      const auto at = std::find(varied.begin(), varied.end(), kept_[j][k]) - varied.begin();
+      const auto found = std::find(varied.begin(), varied.end(), kept_[j][k]);
+      if (found == varied.end()) continue;
+      const auto at = found - varied.begin();
       dx(numbering_.coordinate[j] + static_cast<Eigen::Index>(k)) = variation(numbering.coordinate[j] + at);
     }
   }

@@ -11,7 +11,6 @@
 #include "windlass/rod/closed_form_arcs.hpp"
 #include "windlass/rod/kirchhoff_density.hpp"
 #include "windlass/rod/planar_density.hpp"
-#include "windlass/rod/surface_density.hpp"
 
 namespace windlass::chain {
 
@@ -28,11 +27,11 @@ const char* word(Stretch stretch) {
 /// The section or touch where the half-turn maps the rod to itself.
 std::unique_ptr<Joint> symmetric_joint(const RodKind& rod, const Topology& t) {
   if (t.stretches.front() == Stretch::line) {
-    if (rod.spatial) return std::make_unique<spatial::SurfaceSection>();
+    if (rod.spatial) return std::make_unique<spatial::SurfaceSection>(rod.obstacles.pointer(t.obstacle(0)));
     return std::make_unique<planar::SurfaceSection>();
   }
   if (t.mid_touch) {
-    if (rod.spatial) return std::make_unique<spatial::Touch>();
+    if (rod.spatial) return std::make_unique<spatial::Touch>(rod.obstacles.pointer(t.obstacle(0)));
     return std::make_unique<planar::Touch>();
   }
   if (rod.spatial) return std::make_unique<spatial::FreeSection>();
@@ -42,37 +41,50 @@ std::unique_ptr<Joint> symmetric_joint(const RodKind& rod, const Topology& t) {
 /// Is the tail a formula? An infinite one always is, a finite one where its mesh says so.
 bool closed_form(const RodKind& rod, const ArcMesh& mesh) { return rod.infinite || mesh.stages == 0; }
 
-std::unique_ptr<Joint> end_joint(const RodKind& rod, const ArcMesh& tail, Side arc_side) {
+/// Axis about which a clamped end is posed with a hinge, see spatial::FreeRodEnd: next but one to a line contact along the
+/// clamp, of a rod whose arcs between bend about that axis only. States that leave the plane turn out of the clamp.
+std::optional<Eigen::Vector3d> hinge_axis(const RodKind& rod, const Topology& t, Side arc_side) {
+  const int last = static_cast<int>(t.stretches.size()) - 1, line = arc_side == Side::left ? last - 1 : 1;
+  if (last < 1 || t.stretches[line] != Stretch::line || !rod.natural.isZero()) return std::nullopt;
+  const obstacle::Surface& surface = rod.obstacles[t.obstacle(arc_side == Side::left ? last : 1)];
+  if (surface.curvature() != 0.0 || !surface.endless_along_x()) return std::nullopt;
+  return surface.chart(Eigen::Vector2d::Zero()).tangents.col(1);
+}
+
+std::unique_ptr<Joint> end_joint(const RodKind& rod, const Topology& t, const ArcMesh& tail, Side arc_side) {
   const EndKind kind = arc_side == Side::left ? rod.right : rod.left;
-  if (rod.strut)
-    return std::make_unique<spatial::FreeRodEnd>(arc_side, rod.under_thrust, kind != EndKind::clamped);
+  if (rod.strut) {
+    const bool clamped = kind == EndKind::clamped;
+    return std::make_unique<spatial::FreeRodEnd>(arc_side, rod.under_thrust, !clamped,
+                                                 clamped ? hinge_axis(rod, t, arc_side) : std::nullopt);
+  }
   if (closed_form(rod, tail))
     return std::make_unique<planar::FarEnd>(rod.spatial ? 3 : 1, rod.spatial ? 3 : 2);
   if (rod.spatial) return std::make_unique<spatial::End>(arc_side, kind == EndKind::clamped);
   return std::make_unique<planar::End>(arc_side, kind == EndKind::clamped);
 }
 
-/// Joint between two stretches, the first on the left.
-std::unique_ptr<Joint> contact_joint(const RodKind& rod, Stretch left, Stretch right) {
+/// Joint between two stretches, the first on the left, on an obstacle.
+std::unique_ptr<Joint> contact_joint(const RodKind& rod, Stretch left, Stretch right, int obstacle) {
   if (left == Stretch::line && right == Stretch::line)
     throw std::invalid_argument("two line contacts cannot meet at a joint");
   if (left != Stretch::line && right != Stretch::line) {
-    if (rod.spatial) return std::make_unique<spatial::Touch>();
+    if (rod.spatial) return std::make_unique<spatial::Touch>(rod.obstacles.pointer(obstacle));
     return std::make_unique<planar::Touch>();
   }
   const Side line = left == Stretch::line ? Side::left : Side::right;
-  if (rod.spatial) return std::make_unique<spatial::Edge>(line, rod.bending_stiffness);
+  if (rod.spatial)
+    return std::make_unique<spatial::Edge>(line, rod.bending_stiffness, rod.obstacles.pointer(obstacle),
+                                           rod.bending_stiffness * rod.stiffness.cwiseInverse(), rod.natural);
   return std::make_unique<planar::Edge>(line, rod.bending_stiffness * (1.0 - rod.natural_curvature()));
 }
 
-std::unique_ptr<Arc> make_arc(const RodKind& rod, Stretch stretch, const ArcMesh& mesh, bool rightward) {
+std::unique_ptr<Arc> make_arc(const RodKind& rod, Stretch stretch, int obstacle, const ArcMesh& mesh,
+                              bool rightward) {
   if (stretch == Stretch::line) {
     if (!rod.spatial)
       return std::make_unique<rod::PlanarLineArc>(rod.bending_stiffness, rod.natural_curvature());
-    if (!rod.isotropic_straight())
-      throw std::invalid_argument("a line contact needs an isotropic, naturally straight rod");
-    const rod::SurfaceDensity density{rod.bending_stiffness, rod.stiffness(2)};
-    return bvp::make_collocation_arc(density, mesh.nodes, mesh.stages);
+    return rod::make_line_arc(rod.obstacles[obstacle], rod.material(), mesh.nodes, mesh.stages);
   }
   if (stretch == Stretch::tail && closed_form(rod, mesh)) {
     if (!rod.infinite && (rod.clamped() || !rod.isotropic_straight()))
@@ -104,16 +116,25 @@ std::optional<contact::Parity> neutral_turn(const RodKind& rod, const Topology& 
   return rod.clamped() ? std::nullopt : std::optional(contact::Parity::even);
 }
 
+bool contacts_let_slide_along_x(const RodKind& rod, const Topology& t) {
+  if (!t.contact()) return true;
+  const int count = static_cast<int>(t.stretches.size());
+  for (int j = t.half && t.stretches.front() != Stretch::line && !t.mid_touch ? 1 : !t.half; j < count; ++j)
+    if (!rod.obstacles[t.obstacle(j)].endless_along_x()) return false;
+  return true;
+}
+
 /// Which rigid motions cost nothing and are held, and how; see Chain::Gauges.
 Chain::Gauges gauges(const RodKind& rod, const Topology& t) {
   Chain::Gauges g;
   g.half_turn = t.half;
   if (rod.strut) {
+    const bool touched = t.contact();
     const bool pinned = rod.left != EndKind::clamped && rod.right != EndKind::clamped;
-    g.along = rod.under_thrust;
+    g.along = rod.under_thrust && contacts_let_slide_along_x(rod, t);
     g.spin = pinned && rod.isotropic_straight();
     // A shape turns about the axis of its ends while each section turns back about its tangent, to keep clamped ends.
-    if (rod.isotropic_straight() || pinned) g.phase = rod.isotropic_straight() ? -1.0 : 0.0;
+    if (!touched && (rod.isotropic_straight() || pinned)) g.phase = rod.isotropic_straight() ? -1.0 : 0.0;
     return g;
   }
   g.height = rod.spatial;
@@ -128,20 +149,37 @@ bool Topology::contact() const { return mid_touch || stretches.size() > 1; }
 
 Topology unfolded(const Topology& t) {
   if (!t.half) return t;
+  const int skipped =
+      t.mid_touch ? 0 : 1;  // the first stretch spans both halves, or the mid-point is a joint
   Topology whole{{t.stretches.rbegin(), t.stretches.rend()}, false, false};
-  whole.stretches.insert(whole.stretches.end(), t.stretches.begin() + (t.mid_touch ? 0 : 1),
-                         t.stretches.end());
+  whole.stretches.insert(whole.stretches.end(), t.stretches.begin() + skipped, t.stretches.end());
+  if (t.on.empty()) return whole;
+  whole.on.assign(t.on.rbegin(), t.on.rend() - 1);
+  whole.on.insert(whole.on.end(), t.on.begin() + skipped, t.on.end());
   return whole;
 }
 
 std::string Topology::text() const {
-  const std::vector<Stretch> all = unfolded(*this).stretches;
+  const Topology whole = unfolded(*this);
+  const std::vector<Stretch>& all = whole.stretches;
+  const auto named = [&](const char* contact, std::size_t joint) {
+    const int obstacle = whole.obstacle(static_cast<int>(joint));
+    return obstacle == 0 ? std::string(contact) : std::string(contact) + ":" + std::to_string(obstacle + 1);
+  };
   std::string text;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (i > 0) text += all[i] != Stretch::line && all[i - 1] != Stretch::line ? " touch " : " ";
-    text += word(all[i]);
+    if (i > 0)
+      text += all[i] != Stretch::line && all[i - 1] != Stretch::line ? " " + named("touch", i) + " " : " ";
+    text += all[i] == Stretch::line ? named(word(all[i]), i) : word(all[i]);
   }
   return text;
+}
+
+bool Topology::operator==(const Topology& other) const {
+  if (stretches != other.stretches || half != other.half || mid_touch != other.mid_touch) return false;
+  for (int j = 0; j <= static_cast<int>(stretches.size()); ++j)
+    if (obstacle(j) != other.obstacle(j)) return false;
+  return true;
 }
 
 std::unique_ptr<Chain> build_chain(const RodKind& rod, const Topology& t,
@@ -158,14 +196,14 @@ std::unique_ptr<Chain> build_chain(const RodKind& rod, const Topology& t,
   fixed.back() = end;
   for (int i = 0; i <= count; ++i) {
     if (i == 0)
-      joints.push_back(t.half ? symmetric_joint(rod, t) : end_joint(rod, mesh_of(0), Side::right));
+      joints.push_back(t.half ? symmetric_joint(rod, t) : end_joint(rod, t, mesh_of(0), Side::right));
     else
-      joints.push_back(i == count ? end_joint(rod, mesh_of(count - 1), Side::left)
-                                  : contact_joint(rod, all[i - 1], all[i]));
+      joints.push_back(i == count ? end_joint(rod, t, mesh_of(count - 1), Side::left)
+                                  : contact_joint(rod, all[i - 1], all[i], t.obstacle(i)));
     if (i == count) break;
     const bool leftward = i == 0 && !t.half;
     Link link;
-    link.arc = make_arc(rod, all[i], mesh_of(i), !leftward);
+    link.arc = make_arc(rod, all[i], t.obstacle(i), mesh_of(i), !leftward);
     link.role = word(all[i]);
     if (all[i] == Stretch::tail && !rod.strut) link.pull = leftward ? -1 : 1;
     links.push_back(std::move(link));

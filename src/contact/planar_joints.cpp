@@ -6,17 +6,10 @@ namespace windlass::contact::planar {
 
 namespace {
 
-SmallVector place(double a) {
-  SmallVector x(2);
-  x << std::sin(a), -std::cos(a);
-  return x;
-}
+using obstacle::Cylinder;
 
-SmallVector place_slope(double a) {
-  SmallVector x(2);
-  x << std::cos(a), std::sin(a);
-  return x;
-}
+SmallVector place(double a) { return Cylinder::outward(a).head<2>(); }
+SmallVector place_slope(double a) { return Cylinder::around(a).head<2>(); }
 
 Attachment fixed(double theta, const SmallVector& x, int coordinates = 0) {
   Attachment at;
@@ -42,7 +35,7 @@ void Touch::curvature(Side, const double* w, const Loads&, const SmallVector&, c
 }
 
 Joint::Location Touch::location(const double* w, const SmallVector&, const SmallVector&) const {
-  Location c;
+  Location c;  // N(a)·d₃(θ)
   c.value = std::sin(w[0] - w[1]);
   c.by_w.resize(2);
   c.by_w << std::cos(w[0] - w[1]), -std::cos(w[0] - w[1]);

@@ -8,23 +8,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-Vector3d place(double a, double z) { return {std::sin(a), -std::cos(a), z}; }
-Vector3d along(double a) { return {std::cos(a), std::sin(a), 0.0}; }
-Vector3d outward(double a) { return {std::sin(a), -std::cos(a), 0.0}; }
-
-/// Frame at the south pole: d1 = −e_y (outward), d2 = −e_z, d3 = e_x.
-rod::Quaternion base_frame() {
-  static const rod::Quaternion q = [] {
-    Eigen::Matrix3d r;
-    r.col(0) = -Vector3d::UnitY();
-    r.col(1) = -Vector3d::UnitZ();
-    r.col(2) = Vector3d::UnitX();
-    const Eigen::Quaterniond e(r);
-    return rod::Quaternion(e.w(), e.x(), e.y(), e.z());
-  }();
-  return q;
-}
-
 Attachment sized(int configuration, int tangent, int position, int coordinates) {
   Attachment at;
   at.q = Coordinates::Zero(configuration);
@@ -34,59 +17,61 @@ Attachment sized(int configuration, int tangent, int position, int coordinates) 
   return at;
 }
 
-/// Tangency d₃·N(a) = 0 of a touch whose degrees of freedom are a first and the spins last.
-Joint::Location tangency(double a, const rod::Quaternion& q, int tangent, int spins) {
-  const Eigen::Matrix3d r = rod::directors(q);
-  Joint::Location c;
-  c.value = r.col(2).dot(outward(a));
-  c.by_w = SmallVector::Zero(tangent);
-  c.by_w(0) = r.col(2).dot(along(a));
-  const Vector3d by_spin = 2.0 * Vector3d::UnitZ().cross(r.transpose() * outward(a));
-  c.by_w.tail(spins) = by_spin.head(spins);
-  return c;
-}
+rod::Quaternion frame_at(const double* q) { return Eigen::Map<const Eigen::Vector4d>(q); }
 
 }  // namespace
 
-rod::Quaternion surface_frame(double a, double psi, double chi) {
+rod::Quaternion surface_frame(const rod::Quaternion& base, double psi, double chi) {
   using rod::product, rod::rotation;
-  return product(
-      rotation(Vector3d::UnitZ(), a),
-      product(base_frame(), product(rotation(Vector3d::UnitX(), psi), rotation(Vector3d::UnitZ(), chi))));
+  return product(base, product(rotation(Vector3d::UnitX(), psi), rotation(Vector3d::UnitZ(), chi)));
 }
 
-Eigen::Matrix3d surface_spins(double psi, double chi) {
+rod::Quaternion surface_frame(double a, double psi, double chi) {
+  return surface_frame(obstacle::Cylinder().base_frame({a, 0.0}), psi, chi);
+}
+
+Eigen::Matrix3d surface_spins(double curvature, double psi, double chi) {
   Eigen::Matrix3d v;
   v.col(0) << -std::cos(psi) * std::sin(chi), -std::cos(psi) * std::cos(chi), std::sin(psi);
+  v.col(0) *= curvature;
   v.col(1) << std::cos(chi), -std::sin(chi), 0.0;
   v.col(2) << 0.0, 0.0, 1.0;
   return 0.5 * v;
 }
 
-Vector3d surface_coordinates(const rod::Quaternion& q, double a) {
-  const rod::Quaternion local =
-      rod::product(rod::conjugate(rod::product(rod::rotation(Vector3d::UnitZ(), a), base_frame())), q);
-  const Eigen::Matrix3d r = rod::directors(local);  // R₁(ψ) R₃(χ)
-  return {a, std::atan2(-r(1, 2), r(2, 2)), std::atan2(-r(0, 1), r(0, 0))};
+Eigen::Vector2d surface_coordinates(const rod::Quaternion& q, const rod::Quaternion& base) {
+  const Eigen::Matrix3d r = rod::directors(rod::product(rod::conjugate(base), q));  // R₁(ψ) R₃(χ)
+  return {std::atan2(-r(1, 2), r(2, 2)), std::atan2(-r(0, 1), r(0, 0))};
 }
 
 Attachment Touch::attach(Side, const double* w, const Loads&) const {
   Attachment at = sized(4, 3, 3, tangent());
-  at.q = Eigen::Map<const Eigen::Vector4d>(w + 2);
+  const obstacle::Chart here = chart(w);
+  at.q = frame_at(w + 2);
   at.dq.rightCols(3).setIdentity();
-  at.x = place(w[0], w[1]);
-  at.dx.col(0) = along(w[0]);
-  at.dx(2, 1) = 1.0;
+  at.x = here.r;
+  at.dx.leftCols<2>() = here.tangents;
   return at;
 }
 
 void Touch::curvature(Side, const double* w, const Loads&, const SmallVector&, const SmallVector& f,
                       SmallMatrix& out) const {
-  out(0, 0) -= f.dot(outward(w[0]));
+  out.topLeftCorner<2, 2>() += chart(w).second(f);
 }
 
 Joint::Location Touch::location(const double* w, const SmallVector&, const SmallVector&) const {
-  return tangency(w[0], Eigen::Map<const Eigen::Vector4d>(w + 2), tangent(), 3);
+  const Eigen::Matrix3d d = rod::directors(frame_at(w + 2));
+  const obstacle::Chart here = chart(w);
+  Location c;
+  c.value = d.col(2).dot(here.normal);
+  c.by_w = SmallVector::Zero(tangent());
+  c.by_w.head<2>() = here.normal_slope(d.col(2));
+  c.by_w.tail<3>() = 2.0 * Vector3d::UnitZ().cross(d.transpose() * here.normal);
+  return c;
+}
+
+double Touch::slide(const double* w) const {
+  return rod::directors(frame_at(w + 2)).col(2).dot(chart(w).tangents.col(0));
 }
 
 void Touch::retract(const double* w, const double* dw, double* out) const {
@@ -108,14 +93,14 @@ Attachment Edge::attach(Side side, const double* w, const Loads&) const {
     return at;
   }
   Attachment at = sized(4, 3, 3, tangent());
-  at.q = surface_frame(w[0], w[2], w[3]);
-  const Eigen::Matrix3d spins = surface_spins(w[2], w[3]);
+  const obstacle::Chart here = chart(w);
+  at.q = surface_frame(surface_->base_frame(on_surface(w)), w[2], w[3]);
+  const Eigen::Matrix3d spins = surface_spins(surface_->curvature(), w[2], w[3]);
   at.dq.col(0) = spins.col(0);
   at.dq.col(psi) = spins.col(1);
   at.dq.col(psi + 1) = spins.col(2);
-  at.x = place(w[0], w[1]);
-  at.dx.col(0) = along(w[0]);
-  at.dx(2, 1) = 1.0;
+  at.x = here.r;
+  at.dx.leftCols<2>() = here.tangents;
   return at;
 }
 
@@ -124,11 +109,11 @@ void Edge::curvature(Side side, const double* w, const Loads&, const SmallVector
   if (side == line_) return;
   constexpr int i = 2;  // place of ψ among the coordinates
   const double cp = std::cos(w[2]), sp = std::sin(w[2]), cc = std::cos(w[3]), sc = std::sin(w[3]);
-  const Vector3d g = g_q;
+  const Vector3d g = surface_->curvature() * g_q;
   out(0, i) += 0.5 * g.dot(Vector3d(sp * sc, sp * cc, cp));
   out(0, i + 1) += 0.5 * g.dot(Vector3d(-cp * cc, cp * sc, 0.0));
-  out(i, i + 1) += 0.5 * g.dot(Vector3d(-sc, -cc, 0.0));
-  out(0, 0) -= f.dot(outward(w[0]));
+  out(i, i + 1) += 0.5 * Vector3d(g_q).dot(Vector3d(-sc, -cc, 0.0));
+  out.topLeftCorner<2, 2>() += chart(w).second(f);
 }
 
 Joint::Location Edge::location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const {
@@ -136,15 +121,16 @@ Joint::Location Edge::location(const double* w, const SmallVector& g_left, const
   const bool free_right = line_ == Side::left;
   const double factor = free_right ? -0.5 : 0.5;  // the gradient is ∓2 m in the body frame
   const Vector3d moment = factor * (free_right ? g_right : g_left);
+  const Vector3d strain = compliance_.cwiseProduct(moment) + natural_;  // B u
   const double cp = std::cos(w[2]), sp = std::sin(w[2]), cc = std::cos(w[3]), sc = std::sin(w[3]);
-  const Vector3d binormal(sc, cc, 0.0);
+  const double curvature = stiffness_ * surface_->curvature();
   Location c;
   c.side = free_right ? Side::right : Side::left;
-  c.value = moment.dot(binormal) + stiffness_ * cp * cp;
-  c.by_gradient = factor * binormal;
+  c.value = strain.dot(Vector3d(sc, cc, 0.0)) + curvature * cp * cp;
+  c.by_gradient = factor * compliance_.cwiseProduct(Vector3d(sc, cc, 0.0));
   c.by_w = SmallVector::Zero(tangent());
-  c.by_w(i) = -2.0 * stiffness_ * cp * sp;
-  c.by_w(i + 1) = moment.dot(Vector3d(cc, -sc, 0.0));
+  c.by_w(i) = -2.0 * curvature * cp * sp;
+  c.by_w(i + 1) = strain.dot(Vector3d(cc, -sc, 0.0));
   return c;
 }
 
@@ -216,6 +202,10 @@ Attachment FreeRodEnd::attach(Side, const double* w, const Loads& loads) const {
     at.q = rod::product(surface_frame(0.0, 0.0, 0.0),
                         rod::rotation(Vector3d::UnitZ(), 0.5 * sign * loads.twist));
   }
+  if (hinge_) {
+    at.q = rod::product(rod::rotation(*hinge_, w[under_thrust_]), at.q);
+    at.dq.col(under_thrust_) = 0.5 * rod::directors(at.q).transpose() * *hinge_;
+  }
   at.x(0) = under_thrust_ ? w[0] : sign * (1.0 - loads.shortening) * loads.half_length;
   if (under_thrust_) at.dx(0, 0) = 1.0;
   return at;
@@ -229,23 +219,23 @@ SmallVector FreeRodEnd::dead_load(const double*, const Loads& loads) const {
 }
 
 void Touch::adopt(const Place& place, double* w) const {
-  w[0] = place.angle;
-  w[1] = place.r(2);
+  Eigen::Map<Eigen::Vector2d>{w} = surface_->coordinates(place.r, place.angle);
   Eigen::Map<Eigen::Vector4d>{w + 2} = place.q;
 }
 
 void Edge::adopt(const Place& place, double* w) const {
-  const Vector3d c = surface_coordinates(place.q, place.angle);
-  w[0] = place.angle;
-  w[1] = place.r(2);
-  w[2] = c(1);
-  w[3] = c(2);
-  if (surface_frame(w[0], w[2], w[3]).dot(place.q) < 0.0) w[3] += 2.0 * M_PI;  // the quaternion of this sign
+  Eigen::Map<Eigen::Vector2d>{w} = surface_->coordinates(place.r, place.angle);
+  const rod::Quaternion base = surface_->base_frame(on_surface(w));
+  Eigen::Map<Eigen::Vector2d>{w + 2} = surface_coordinates(place.q, base);
+  if (surface_frame(base, w[2], w[3]).dot(place.q) < 0.0) w[3] += 2.0 * M_PI;  // the quaternion of this sign
 }
 
 void SurfaceSection::adopt(const Place& place, double* w) const {
-  const Vector3d c = surface_coordinates(place.q, place.angle);
-  w[0] = place.angle, w[1] = place.r(2), w[2] = c(1), w[3] = 0.0;
+  Eigen::Map<Eigen::Vector2d> u(w);
+  u = surface_->coordinates(place.r, place.angle);
+  const Eigen::Vector2d turned = surface_coordinates(place.q, surface_->base_frame(u));
+  w[2] = turned(0);
+  w[3] = M_PI * std::round(turned(1) / M_PI);  // the half-turn about N keeps frames with d₁ = ±N
 }
 
 void FreeSection::adopt(const Place& place, double* w) const {
@@ -259,11 +249,13 @@ void End::adopt(const Place& place, double* w) const {
 
 void FreeRodEnd::adopt(const Place& place, double* w) const {
   if (under_thrust_) w[0] = place.r(0);
+  if (hinge_) w[under_thrust_] = 0.0;
   if (pinned_) Eigen::Map<Eigen::Vector4d>{w + under_thrust_} = place.q;
 }
 
 void FreeRodEnd::retract(const double* w, const double* dw, double* out) const {
   if (under_thrust_) out[0] = w[0] + dw[0];
+  if (hinge_) out[under_thrust_] = w[under_thrust_] + dw[under_thrust_];
   if (!pinned_) return;
   Eigen::Map<Eigen::Vector4d>{out + under_thrust_} = rod::retract(
       Eigen::Map<const Eigen::Vector4d>(w + under_thrust_), Vector3d(dw + static_cast<int>(under_thrust_)));

@@ -95,7 +95,7 @@ std::optional<Started> reach(const Started& from, const scene::Scene& scene, dou
   if (problem->polish(x, p) < 0)
     return failure = "Newton did not converge at the end of the way", std::nullopt;
   x = problem->refine(x, p);
-  if (!half) return unfold(*problem, x, p, iterations);
+  if (!half && reached.topology().half) return unfold(*problem, x, p, iterations);
   return Started{problem, x, p, iterations};
 }
 

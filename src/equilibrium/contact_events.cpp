@@ -45,19 +45,26 @@ Least least_near(const Piece& piece, const Eigen::VectorXd& values, Eigen::Index
   return least;
 }
 
-/// Least local minimum of the gap inside a free arc. Next to a contact the gap is flat and its samples are rounding; a
-/// minimum must stand out by more than that.
-ContactEvent graze(const Piece& piece, int link, bool starts_at_mid) {
+/// Least local minimum of the gap to an obstacle inside a free arc. Next to a contact the gap is flat and its samples are
+/// rounding; a minimum must stand out by more than that.
+ContactEvent graze(const Profile& profile, int obstacle, int link, bool starts_at_mid) {
   constexpr double noise = 1e-11;
-  ContactEvent event{Kind::graze, link, far, piece.s(0)};
+  const Piece& piece = profile.pieces[link];
+  const obstacle::Surface& surface = profile.obstacles[obstacle];
+  const auto at = [&](double value, double s) {
+    ContactEvent event{Kind::graze, link, value, s};
+    event.obstacle = obstacle;
+    return event;
+  };
+  ContactEvent event = at(far, piece.s(0));
   const Eigen::Index count = piece.s.size();
   Eigen::VectorXd g(count);
-  for (Eigen::Index k = 0; k < count; ++k) g(k) = chain::gap(piece.r.col(k));
-  if (starts_at_mid && g(0) < g(1)) event = {Kind::graze, link, g(0), piece.s(0)};
+  for (Eigen::Index k = 0; k < count; ++k) g(k) = surface.gap(piece.r.col(k));
+  if (starts_at_mid && g(0) < g(1)) event = at(g(0), piece.s(0));
   for (Eigen::Index k = 1; k + 1 < count; ++k) {
     if (g(k) > g(k - 1) - noise || g(k) > g(k + 1)) continue;
     const Least least = least_near(piece, g, k);
-    if (least.value < event.value) event = {Kind::graze, link, least.value, least.s};
+    if (least.value < event.value) event = at(least.value, least.s);
   }
   return event;
 }
@@ -89,7 +96,9 @@ double reach(double p, double b, double a, double most) {
 }
 
 /// Where a line contact pulls, about its least pressure; no length where it does not.
+/// A line that carries no pressure over its length is no less in contact for that; see rod::buckling_margin.
 ContactEvent least_pressure(const Piece& line, int link, bool begins_at_mid) {
+  if (line.buckling) return {Kind::pressure, link, far, line.s(0)};
   Eigen::Index k = 0;
   line.p.minCoeff(&k);
   const Least least = least_near(line, line.p, k);
@@ -123,7 +132,8 @@ ContactEvent suction(const Piece& line, const ContactEvent& pressure) {
 /// Two touches at the ends of a short gap: with it their curvature, its height and all that tells them apart vanishes.
 bool hardly_apart(const Profile& profile, int link) {
   constexpr double short_gap = 0.02, flat = 1e-6;
-  if (profile.pieces[link].stretch != Stretch::gap || length_of(profile.pieces[link]) > short_gap)
+  if (profile.pieces[link].stretch != Stretch::gap ||
+      length_of(profile.pieces[link]) > short_gap * profile.unit_length)
     return false;
   int touches = 0;
   for (const Contact& c : profile.contacts)
@@ -153,12 +163,20 @@ std::optional<double> carried_length(const Sides& at, bool begins_at_mid) {
   return std::nullopt;
 }
 
+/// A line without pressure (see rod::buckling_margin) has none to stand for a gap.
+bool beside_unpressed(const Profile& profile, int link) {
+  const int last = static_cast<int>(profile.pieces.size()) - 1;
+  return (link > 0 && profile.pieces[link - 1].buckling) ||
+         (link < last && profile.pieces[link + 1].buckling);
+}
+
 ContactEvent length_event(const Profile& profile, int i, bool begins_at_mid) {
   const Piece& piece = profile.pieces[i];
   const bool gap = piece.stretch == Stretch::gap;
   const Sides at = gap ? sides(profile, i) : Sides{};
-  const auto carried = gap ? carried_length(at, begins_at_mid) : std::nullopt;
-  const double least = gap && at.touches == 2 ? least_between_touches : least_length;
+  const auto carried =
+      gap && !beside_unpressed(profile, i) ? carried_length(at, begins_at_mid) : std::nullopt;
+  const double least = (gap && at.touches == 2 ? least_between_touches : least_length) * profile.unit_length;
   ContactEvent event{Kind::length, i, length_of(piece) - carried.value_or(least), piece.s(0)};
   event.redrawn = carried.has_value();
   event.imminent = hardly_apart(profile, i);
@@ -168,8 +186,10 @@ ContactEvent length_event(const Profile& profile, int i, bool begins_at_mid) {
 }  // namespace
 
 std::string ContactEvent::name() const {
-  static const char* const words[] = {"pressure", "suction", "length", "force", "curvature", "graze"};
-  return std::string(words[static_cast<int>(kind)]) + " " + std::to_string(place);
+  static const char* const words[] = {"pressure",  "suction", "length",  "force",
+                                      "curvature", "graze",   "buckling"};
+  const std::string name = std::string(words[static_cast<int>(kind)]) + " " + std::to_string(place);
+  return obstacle == 0 ? name : name + ":" + std::to_string(obstacle + 1);
 }
 
 std::vector<ContactEvent> contact_events(const Profile& profile, const Topology& topology) {
@@ -184,7 +204,11 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
     }
     if (piece.stretch != Stretch::tail)
       events.push_back(length_event(profile, i, at_mid && !topology.mid_touch));
-    if (piece.stretch != Stretch::line) events.push_back(graze(piece, i, at_mid && !topology.mid_touch));
+    if (piece.stretch == Stretch::line)
+      events.push_back({Kind::buckling, i, piece.buckling.value_or(far), piece.s(0)});
+    else
+      for (int o = 0; o < profile.obstacles.size(); ++o)
+        events.push_back(graze(profile, o, i, at_mid && !topology.mid_touch));
   }
   for (const Contact& c : profile.contacts) {
     events.push_back({Kind::force, c.joint, c.force, c.s});

@@ -4,6 +4,7 @@
 #include "attempt.hpp"
 #include "windlass/contact/spatial_joints.hpp"
 #include "windlass/equilibrium/discovery.hpp"
+#include "windlass/obstacle/cylinder.hpp"
 
 namespace windlass::equilibrium {
 
@@ -52,13 +53,13 @@ chain::Profile profile_of(const Discovery& found, const contact::Loads& loads) {
     const auto i = static_cast<std::size_t>(k);
     rod.r.col(k) << found.x[i], found.y[i], 0.0;
     rod.n.col(k) << n, 0.0;
-    n += found.force[i] * rod.r.col(k).head<2>() / (1.0 + found.gap[i]);
+    n += found.force[i] * obstacle::Cylinder().normal(rod.r.col(k)).head<2>();
     rod.q.col(k) = contact::spatial::surface_frame(rod.heading(k), 0.0, 0.0);
     const Eigen::Index before = std::max<Eigen::Index>(k - 1, 0), after = std::min(k + 1, count - 1);
     rod.m(2, k) = (rod.heading(after) - rod.heading(before)) / (rod.s(after) - rod.s(before));
   }
   for (Eigen::Index k = 1; k < count; ++k) {
-    const double turn = std::atan2(rod.r(0, k), -rod.r(1, k));
+    const double turn = obstacle::Cylinder::angle(rod.r.col(k));
     rod.angle(k) = rod.angle(k - 1) + std::remainder(turn - rod.angle(k - 1), 2.0 * M_PI);
   }
   chain::Profile out;

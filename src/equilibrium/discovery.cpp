@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "nodal_rod.hpp"
+#include "windlass/obstacle/cylinder.hpp"
 #include "windlass/petsc/handles.hpp"
 
 namespace windlass::equilibrium {
@@ -193,7 +194,7 @@ Discovery describe(const NodalRod& rod, const VectorXd& x, double tension) {
     d.theta.push_back(x(NodalRod::theta(k)));
     d.x.push_back(x(NodalRod::position(k)));
     d.y.push_back(x(NodalRod::position(k) + 1));
-    d.gap.push_back(std::hypot(d.x.back(), d.y.back()) - 1.0);
+    d.gap.push_back(obstacle::Cylinder().gap({d.x.back(), d.y.back(), 0.0}));
     d.force.push_back(std::max(x(NodalRod::contact_force(k)), 0.0));  // the semismooth method leaves rounding
     d.R_tot += 2.0 * d.force.back();
   }

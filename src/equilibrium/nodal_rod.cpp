@@ -4,13 +4,22 @@
 #include <cmath>
 #include <utility>
 
+#include "windlass/obstacle/cylinder.hpp"
+
 namespace windlass::equilibrium {
 
 using Eigen::Index;
 using Eigen::Vector2d;
+using Eigen::Vector3d;
 using Vector = NodalRod::Vector;
 
 namespace {
+
+const obstacle::Cylinder cylinder;
+
+Vector3d place_of(const Vector& x, int node) {
+  return {x(NodalRod::position(node)), x(NodalRod::position(node) + 1), 0.0};
+}
 
 Vector2d along(double theta) { return {std::cos(theta), std::sin(theta)}; }
 Vector2d across(double theta) { return {-std::sin(theta), std::cos(theta)}; }
@@ -117,9 +126,9 @@ Vector NodalRod::residual(const Vector& x) const {
   Vector f = Vector::Zero(size());
   for (int e = 0; e + 1 < nodes(); ++e) add_element(x, e, f);
   for (int k = 0; k < nodes(); ++k) {
-    const Vector2d r = x.segment<2>(position(k));
-    f.segment<2>(position(k)) -= x(contact_force(k)) * r.normalized();
-    f(contact_force(k)) = r.norm() - 1.0 + compliance * x(contact_force(k));
+    const Vector3d r = place_of(x, k);
+    f.segment<2>(position(k)) -= x(contact_force(k)) * cylinder.normal(r).head<2>();
+    f(contact_force(k)) = cylinder.gap(r) + compliance * x(contact_force(k));
   }
   f.segment<2>(position(nodes() - 1)) -= pull();
   for (const auto& [place, value] : held()) f(place) = x(place) - value;
@@ -161,8 +170,8 @@ NodalRod::Sparse NodalRod::jacobian(const Vector& x) const {
   for (int e = 0; e + 1 < nodes(); ++e) add_element(x, e, entries);
   for (int k = 0; k < nodes(); ++k) {
     entries.emplace_back(contact_force(k), contact_force(k), compliance);
-    const Vector2d r = x.segment<2>(position(k)), normal = r.normalized(), tangent(-normal.y(), normal.x());
-    const Eigen::Matrix2d curvature = -x(contact_force(k)) / r.norm() * tangent * tangent.transpose();
+    const Vector3d r = place_of(x, k), normal = cylinder.normal(r);
+    const Eigen::Matrix3d curvature = -x(contact_force(k)) * cylinder.hessian(r);
     for (int i = 0; i < 2; ++i) {
       entries.emplace_back(contact_force(k), position(k) + i, normal(i));
       entries.emplace_back(position(k) + i, contact_force(k), -normal(i));

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "windlass/chain/singular_matrix.hpp"
+#include "windlass/rod/quaternion.hpp"
+
 namespace windlass::equilibrium {
 
 namespace {
@@ -73,7 +76,68 @@ double newton_step(RodProblem& problem, Vector& x, Vector& p, const Borders& bor
   return dx.cwiseAbs().maxCoeff();
 }
 
+/// Turns the tangents of a link towards `normal` by sin(waves·2πσ), as an increment.
+void bow(const RodProblem& problem, const Vector& x, const contact::Loads& at, int link,
+         const Eigen::Vector3d& normal, double waves, Vector& mode) {
+  const chain::Chain& chain = problem.chain();
+  const bvp::Arc& arc = *chain.link(link).arc;
+  Eigen::Index row = chain.dense_size();
+  for (int i = 0; i < link; ++i) row += chain.link(i).arc->interior_tangent();
+  const bvp::ArcSamples samples = arc.sample(chain.place(x, at, link).point());
+  for (int k = 1; k <= arc.interior_nodes(); ++k) {
+    const Eigen::Matrix3d d = rod::directors(samples.q.col(k));
+    const double turn = std::sin(2.0 * M_PI * waves * samples.sigma(k));
+    mode.segment<3>(row + 3 * (k - 1)) = 0.5 * turn * (d.transpose() * d.col(2).cross(normal));
+  }
+}
+
+/// Buckling mode of a straight link held at its ends, and where a half chain's link begins at its mid-point that moves
+/// along the normal. The part between a clamp and the link has the same buckling load and bows with it.
+struct BucklingMode {
+  Vector whole, link;  ///< link: its own part
+};
+BucklingMode buckling_mode(RodProblem& problem, const Vector& x, const Vector& p, int link) {
+  const chain::Chain& chain = problem.chain();
+  const contact::Loads at = problem.loads(p);
+  const bool from_middle = problem.topology().half && link == 0;
+  const Eigen::Vector3d normal = chain.joint(link + 1).chart(chain.coordinates(x, link + 1)).normal;
+  BucklingMode mode{Vector::Zero(chain.size()), {}};
+  bow(problem, x, at, link, normal, from_middle ? -0.5 : 1.0, mode.whole);
+  mode.link = mode.whole;
+  constexpr int along_y = 0;  // of a symmetric section's even coordinates
+  if (from_middle) mode.whole(along_y) = 2.0 * normal(1) * chain.length(x, at, link) / M_PI;
+  const int last = chain.link_count() - 1;
+  if (link == last - 1 && problem.rod().right == chain::EndKind::clamped)
+    bow(problem, x, at, last, normal, 1.0, mode.whole);
+  if (link == 1 && !problem.topology().half && problem.rod().left == chain::EndKind::clamped)
+    bow(problem, x, at, 0, normal, 1.0, mode.whole);
+  return mode;
+}
+
 }  // namespace
+
+bool enter_bowed(RodProblem& problem, Vector& x, Vector& p, int link) {
+  constexpr double size = 1e-2;     // of the largest slope of the rod
+  constexpr double settled = 1e-8;  // converges by squares: what is left is rounding
+  double slope = 0.0;
+  for (const chain::Piece& piece : problem.profile(x, p).pieces)
+    for (Eigen::Index k = 0; k < piece.s.size(); ++k)
+      slope = std::max(slope, rod::directors(piece.q.col(k)).col(2).tail<2>().norm());
+  const BucklingMode mode = buckling_mode(problem, x, p, link);
+  x = problem.retract(x, size * slope * mode.whole);
+  try {
+    for (int k = 0; k < 20; ++k) {
+      Borders borders(problem.size(), 1);
+      borders.b.col(0) = problem.parameter_derivative(x, p, 0);
+      borders.c.col(0) = mode.link / mode.link.squaredNorm();
+      const double step = newton_step(problem, x, p, borders, Vector::Zero(1), true);
+      if (step < settled * std::max(1.0, x.cwiseAbs().maxCoeff())) return true;
+    }
+  } catch (const std::domain_error&) {  // a length left its domain
+  } catch (const chain::SingularMatrix&) {
+  }
+  return false;
+}
 
 void settle_shape(RodProblem& problem, Vector& x, Vector& p, const std::vector<int>& opened) {
   const Borders borders = hold_edges(problem.chain(), opened);

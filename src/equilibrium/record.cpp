@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "windlass/chain/self_distance.hpp"
+#include "windlass/obstacle/cylinder.hpp"
 #include "windlass/rod/quaternion.hpp"
 #include "windlass/scene/units.hpp"
 
@@ -43,6 +44,7 @@ ArcRecord arc_record(const Piece& piece) {
   arc.s_begin = arc.s(0);
   arc.s_end = arc.s(count - 1);
   arc.force = piece.force;
+  arc.obstacle = stretch == Stretch::line ? piece.obstacle : -1;
   return arc;
 }
 
@@ -73,7 +75,7 @@ JointRecord end_record(const ArcRecord& arc, bool at_end, bool infinite) {
   const Eigen::Index k = at_end ? arc.s.size() - 1 : 0;
   joint.s = arc.s(k);
   joint.r = arc.r.col(k);
-  joint.angle = std::atan2(joint.r(0), -joint.r(1));
+  joint.angle = obstacle::Cylinder::angle(joint.r);
   joint.z = joint.r(2);
   return joint;
 }
@@ -85,7 +87,10 @@ JointRecord contact_record(const chain::Contact& c, double sign) {
   joint.angle = sign * c.angle;
   joint.z = sign * c.z;
   joint.force = c.force;
-  joint.r = {std::sin(joint.angle), -std::cos(joint.angle), joint.z};
+  joint.obstacle = c.obstacle;
+  const Vector3d image(sign, 1.0, sign);  // under the half-turn, for sign = −1
+  joint.r = image.cwiseProduct(c.r);
+  joint.normal = image.cwiseProduct(c.normal);
   return joint;
 }
 
@@ -151,7 +156,7 @@ void measure_invariants(Solution& out, const chain::RodKind& kind) {
     if (arc.kind == ArcKind::line) balance += arc.n.col(arc.n.cols() - 1) - arc.n.col(0);
   }
   for (const JointRecord& joint : out.joints) {
-    balance -= joint.force * Vector3d(std::sin(joint.angle), -std::cos(joint.angle), 0.0);
+    balance -= joint.force * joint.normal;
     balance -= joint.holding * joint.holding_direction();
   }
   if (kind.strut) return;
@@ -170,7 +175,7 @@ Solution record(RodProblem& problem, const Vector& x, const Vector& p) {
   out.has_cylinder = scene.has_cylinder;
   out.model = !problem.spatial() ? "planar" : topology.half ? "kirchhoff_half" : "kirchhoff_full";
   out.converged = true;
-  out.topology = scene.has_cylinder ? topology.text() : "strut";
+  out.topology = scene.has_cylinder || topology.contact() ? topology.text() : "strut";
   const chain::Profile image = topology.half ? chain::mirrored(shape) : chain::Profile();
   const chain::Profile& whole = topology.half ? image : shape;
   assemble(shape, whole, topology, problem.rod().infinite, out);
@@ -191,8 +196,8 @@ Solution record(RodProblem& problem, const Vector& x, const Vector& p) {
   for (int j = 0; j < problem.chain().joint_count(); ++j)
     if (const double share = problem.chain().slide_share(j); share > 0.0 && problem.chain().holds_slide())
       out.joints[j].holding = -share * problem.chain().holding_force(x);
+  out.R_tot = chain::total_contact_force(shape, topology);
   if (scene.has_cylinder) {
-    out.R_tot = chain::total_contact_force(shape, topology);
     if (scene.friction) out.F0 = *scene.friction * out.R_tot;
   } else {
     const ArcRecord& last = out.arcs.back();
@@ -217,6 +222,7 @@ std::string chain_of(const RodProblem& problem) {
   chain["units"] = {{"length", units.length}, {"bending_stiffness", units.bending_stiffness}};
   for (const Stretch stretch : problem.topology().stretches)
     chain["stretches"].push_back(static_cast<int>(stretch));
+  if (!problem.topology().on.empty()) chain["on"] = problem.topology().on;
   for (const auto& mesh : problem.meshes())
     chain["meshes"].push_back({{"nodes", mesh.nodes}, {"stages", mesh.stages}});
   return chain.dump();
@@ -238,6 +244,7 @@ std::shared_ptr<RodProblem> rebuild(const scene::Scene& scene, const std::string
   topology.half = chain.at("half");
   topology.mid_touch = chain.at("mid_touch");
   for (int k : chain.at("stretches")) topology.stretches.push_back(static_cast<Stretch>(k));
+  topology.on = chain.value("on", std::vector<int>());
   std::vector<chain::ArcMesh> meshes;
   for (const auto& mesh : chain.at("meshes"))
     meshes.push_back({mesh.at("nodes").get<std::vector<double>>(), mesh.at("stages").get<int>()});

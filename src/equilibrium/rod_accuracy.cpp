@@ -185,6 +185,11 @@ bool RodProblem::settle(Vector& x, const Vector& p) {
   constexpr double nothing = 1e-10;  // of the pulls: below what a certificate asks
   constexpr int most = 12;
   const double tension = loads(p).tension;
+  constexpr double out = 1e-6;  // [rad]
+  for (int j = 0; j < chain_->joint_count(); ++j)
+    if (std::abs(chain_->joint(j).out_of_clamp(chain_->coordinates(x, j))) > out)
+      throw std::domain_error(
+          "a clamped end whose rod lies on an obstacle leaves its clamp: such states are not followed");
   if (std::abs(chain_->holding_force(x)) < nothing * tension) return false;
   const Eigen::MatrixXd none(chain_->size(), 0), corner(0, 0);
   for (int k = 0; k < most; ++k) {

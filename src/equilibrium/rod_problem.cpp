@@ -9,6 +9,7 @@
 #include "windlass/chain/singular_matrix.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/equilibrium/start.hpp"
+#include "windlass/obstacle/scene_obstacles.hpp"
 #include "windlass/rod/quaternion.hpp"
 #include "windlass/scene/keys.hpp"
 #include "windlass/scene/units.hpp"
@@ -59,6 +60,9 @@ chain::RodKind rod_of(const scene::Scene& scene, bool spatial) {
   rod.right = end_kind(scene, scene.ends.right_kind());
   rod.infinite = scene.rod.infinite();
   rod.strut = !scene.has_cylinder;
+  rod.obstacles = obstacle::obstacles_of(scene);
+  constexpr double twentieth = 0.05;  // a capstan's rod has a length of some 20 ρ
+  if (rod.strut) rod.unit_length = twentieth * scene.rod.length;
   rod.under_thrust = !scene.ends.shortening.has_value();
   if (spatial && scene.has_cylinder) rod.pull_angle = scene.load.angle;
   rod.bending_stiffness = scene.rod.bending_stiffness;
@@ -184,9 +188,8 @@ bool RodProblem::degenerate(const Vector& x, const Loads& at) const {
     if (chain_->arclength(x, at, j) - chain_->arclength(x, at, j - 1) < nothing) return true;
     const contact::Joint& joint = chain_->joint(j);
     if (joint.kind() != contact::JointKind::touch) continue;
-    const double a = joint.angle(chain_->coordinates(x, j));
     const Vector jump = chain_->force(x, at, j - 1) - chain_->force(x, at, j);
-    if (jump(0) * std::sin(a) - jump(1) * std::cos(a) < nothing) return true;
+    if (jump.dot(joint.chart(chain_->coordinates(x, j)).normal.head(jump.size())) < nothing) return true;
   }
   return false;
 }
@@ -293,6 +296,23 @@ std::shared_ptr<continuation::Problem> RodProblem::clone() const {
   return copy;
 }
 
+namespace {
+
+/// Sum over the obstacles of the squares of the least gaps.
+double nearness(const chain::Profile& shape) {
+  double sum = 0.0;
+  for (int o = 0; o < shape.obstacles.size(); ++o) {
+    double least = HUGE_VAL;
+    for (const chain::Piece& piece : shape.pieces)
+      for (Eigen::Index k = 0; k < piece.s.size(); k += piece.stride)
+        least = std::min(least, shape.obstacles[o].gap(piece.r.col(k)));
+    sum += least * least;
+  }
+  return sum;
+}
+
+}  // namespace
+
 Vector RodProblem::fingerprint(const Vector& x, const Vector& p) {
   const Loads at = loads(p);
   const chain::Profile shape = profile(x, p);
@@ -306,8 +326,11 @@ Vector RodProblem::fingerprint(const Vector& x, const Vector& p) {
   }
   for (const chain::Contact& contact : shape.contacts) contacts += contact.joint > 0 ? copies : 1.0;
   const double tilt = std::abs(std::asin(std::clamp(rod::directors(shape.at(0.0).q)(2, 2), -1.0, 1.0)));
-  Vector print(5);
-  print << target(*chain_, x, at), energy, z_high - z_low, tilt, contacts;
+  const bool told_apart =
+      rod_.strut && rod_.obstacles.size() > 0;  // mirror images, where the obstacles are no images
+  Vector print(told_apart ? 6 : 5);
+  print.head<5>() << target(*chain_, x, at), energy, z_high - z_low, tilt, contacts;
+  if (told_apart) print(5) = nearness(shape);
   return print;
 }
 

@@ -61,16 +61,16 @@ bool holds(Entry& entry) {
 /// the arc that is a zero of the curvature of the touch at s, or of the pressure there.
 /// @returns the precision of p(0), nothing if there is no such zero near
 std::optional<double> locate_from_beyond(Entry& entry, double s) {
+  const double least = least_length * entry.problem->rod().unit_length;
   const auto value_at = [&](Entry& at) -> std::optional<double> {
     if (at.problem->polish(at.x, at.p, 18) < 0) return std::nullopt;
     const chain::Profile shape = at.problem->profile(at.x, at.p);
     std::optional<double> pressure;
     for (const ContactEvent& event : contact_events(shape, at.problem->topology())) {
-      if (event.kind == Kind::curvature && std::abs(event.s - s) < 10.0 * least_length) return event.value;
+      if (event.kind == Kind::curvature && std::abs(event.s - s) < 10.0 * least) return event.value;
       if (event.kind != Kind::pressure) continue;
       const Eigen::VectorXd& places = shape.pieces[event.place].s;
-      if (places(0) - least_length < s && s < places(places.size() - 1) + least_length)
-        pressure = event.value;
+      if (places(0) - least < s && s < places(places.size() - 1) + least) pressure = event.value;
     }
     return pressure;
   };
@@ -114,7 +114,8 @@ double length_of(Entry& entry, int link) {
 /// Brings an opened arc to the length that it is entered with, as far as the contacts hold: longer ones lie further from
 /// the event, in shorter ones rounding moves the edges, by its size over the edges' force, length³.
 void adjust_length(Entry& entry, int link) {
-  constexpr double entered = 0.06, factor = 1.5;
+  constexpr double factor = 1.5;
+  const double entered = 0.06 * entry.problem->rod().unit_length;
   const double now = length_of(entry, link);
   const double change = now > factor * entered ? 1.0 / factor : now < entered ? factor : 1.0;
   if (change == 1.0) return;
@@ -171,12 +172,19 @@ std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const 
     Entry exact = guess;
     const bool vanishes = (event.kind == Kind::length && !event.redrawn) ||
                           (event.kind == Kind::curvature && next.opened.empty());
-    const auto found = vanishes ? locate_from_beyond(exact, event.s + 0.5 * least_length) : std::nullopt;
+    const auto found =
+        vanishes ? locate_from_beyond(exact, event.s + 0.5 * least_length * guess.problem->rod().unit_length)
+                 : std::nullopt;
     if (found && holds(exact)) {
       precision = *found;
       return exact;
     }
   } catch (const std::exception&) {  // a length or tension left its domain
+  }
+  if (next.bowed >= 0) {
+    Entry bow = guess;
+    return enter_bowed(*bow.problem, bow.x, bow.p, next.bowed) && holds(bow) ? std::optional(bow)
+                                                                             : std::nullopt;
   }
   try {
     if (!next.opened.empty()) return open_in_turn(guess, next.opened, most_together, event.redrawn);
@@ -191,7 +199,7 @@ std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const 
 
 std::vector<continuation::EventFunction> RodProblem::events(const Vector& x, const Vector& p) {
   std::vector<continuation::EventFunction> out;
-  if (!scene_.has_cylinder) return out;
+  if (rod_.obstacles.size() == 0) return out;
   for (const ContactEvent& event : contact_events(profile(x, p), topology_))
     out.push_back({event.name(), event.value, event.imminent, event.passes});
   return out;
@@ -211,7 +219,7 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
       transition.problem = clone();
       return transition;
     }
-    if (next.nothing_left) {
+    if (next.nothing_left && !rod_.strut) {  // a free rod goes on without contact
       transition.after = "no contact";
       return transition;  // null problem: the branch ends here
     }

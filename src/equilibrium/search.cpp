@@ -43,7 +43,7 @@ std::optional<Started> calm_state(scene::Scene scene, double load, bool spatial,
                                   const std::vector<std::string>& keys) {
   scene::set_parameter(scene, load_key(scene), load);
   try {
-    Started start = cold_start(scene, spatial, true, keys);
+    Started start = cold_start(scene, spatial, scene.obstacles_keep_half_turn(), keys);
     if (start.problem->total_index(start.x, start.p) > 0) return std::nullopt;
     return start;
   } catch (const NoEquilibrium&) {

@@ -1,11 +1,14 @@
 #include "strip.hpp"
 
+#include <algorithm>
+
 namespace windlass::equilibrium {
 
 using chain::Stretch;
 
 Strip::Strip(const chain::Topology& topology, const std::vector<double>& places)
     : s(places), half(topology.half), mid_touch(topology.mid_touch) {
+  for (int j = 0; j < static_cast<int>(s.size()); ++j) on.push_back(topology.obstacle(j));
   for (const Stretch kind : topology.stretches) parts.push_back({kind, static_cast<int>(parts.size())});
 }
 
@@ -14,6 +17,11 @@ Successor Strip::successor() const {
   out.s = s;
   out.topology.half = half;
   out.topology.mid_touch = mid_touch;
+  std::vector<int> contacts = on;  // the ends, and the section where a half chain begins, lie on none
+  if (!mid_touch && !(half && parts.front().kind == Stretch::line)) contacts.front() = 0;
+  contacts.back() = 0;
+  if (std::any_of(contacts.begin(), contacts.end(), [](int obstacle) { return obstacle != 0; }))
+    out.topology.on = contacts;
   for (const Part& part : parts) {
     if (part.fresh) out.opened.push_back(static_cast<int>(out.topology.stretches.size()));
     out.topology.stretches.push_back(part.kind);
@@ -26,6 +34,7 @@ Successor Strip::successor() const {
 void Strip::erase(int i, int bound) {
   parts.erase(parts.begin() + i);
   s.erase(s.begin() + bound);
+  on.erase(on.begin() + bound);
 }
 
 void Strip::merge(int first, int last, Stretch kind) {
@@ -33,11 +42,12 @@ void Strip::merge(int first, int last, Stretch kind) {
   parts[first].kind = kind;
 }
 
-void Strip::split(int i, double at, Stretch left, Stretch right) {
+void Strip::split(int i, double at, Stretch left, Stretch right, std::optional<int> obstacle) {
   const Part old = parts[i];
   parts[i].kind = left;
   parts.insert(parts.begin() + i + 1, {right, old.source});
   s.insert(s.begin() + i + 1, at);
+  on.insert(on.begin() + i + 1, obstacle.value_or(on[i]));
 }
 
 bool Strip::collapse(int i) {

@@ -3,6 +3,7 @@
 
 #include "attempt.hpp"
 #include "windlass/chain/ring.hpp"
+#include "windlass/obstacle/scene_obstacles.hpp"
 
 namespace windlass::equilibrium {
 
@@ -29,14 +30,31 @@ std::optional<Started> strut_near(const scene::Scene& scene, const chain::Profil
   return Started{problem, x, p, used};
 }
 
+/// A moderate shortening at which the bow touches nothing. A shortening s bends a rod of length L by 2 L √s/π.
+double free_bow(const scene::Scene& scene) {
+  constexpr double moderate = 0.02, most = 0.5;  // of the room there is
+  const obstacle::Set obstacles = obstacle::obstacles_of(scene);
+  double room = HUGE_VAL;
+  for (int o = 0; o < obstacles.size(); ++o) room = std::min(room, obstacles[o].gap(Eigen::Vector3d::Zero()));
+  const double bow = 0.5 * M_PI * most * room / scene.rod.length;
+  return std::min(moderate, bow * bow);
+}
+
 /// A slightly shortened strut: a moderate bow, whose amplitude follows from the shortening.
 std::optional<Started> bowed_strut(const scene::Scene& scene) {
-  constexpr double moderate = 0.02;
-  const double goal = *scene.ends.shortening;
-  constexpr double critical = 4.0 * M_PI * M_PI;  // B = L = 1
+  const double goal = *scene.ends.shortening, moderate = free_bow(scene);
+  const bool pinned =
+      scene.ends.left_kind() != scene::EndKind::clamped && scene.ends.right_kind() != scene::EndKind::clamped;
+  const double critical = (pinned ? 1.0 : 4.0) * M_PI * M_PI;  // B = L = 1
   scene::Scene near = scene;
   near.ends.shortening = moderate;
-  const chain::Profile bow = chain::strut_profile(loads_of(near), 2.0 * std::sqrt(moderate));
+  contact::Loads loads = loads_of(near);
+  if (pinned) loads.half_length *= 2.0;  // half a wave between pins, a whole one between clamps
+  chain::Profile bow = chain::strut_profile(loads, 2.0 * std::sqrt(moderate));
+  if (pinned) {
+    chain::Piece& shape = bow.pieces.front();
+    shape.r.row(1).array() -= bow.at(0.5 * loads.half_length).r(1);
+  }
   std::optional<Started> from = strut_near(near, bow, critical, {"ends.shortening"});
   // Towards none by factors: the amplitude goes like the square root.
   for (double at = moderate; from && at > goal;) {
@@ -83,13 +101,15 @@ Started buckled_strut(const scene::Scene& scene, bool half, const std::vector<st
   untwisted.ends.twist = 0.0;
   std::string failure = "Newton did not converge near the straight one";
   // Ends that meet carry the ring, whose twist has gone into its loop; the figure of eight is another state.
-  if (goal == 1.0 && scene.ends.twist != 0.0)
+  if (goal == 1.0 && scene.ends.twist != 0.0 && !scene.has_obstacles())
     if (auto ring = looped_strut(scene)) {
       ring->x = ring->problem->refine(ring->x, ring->p);
       if (const auto found = reach(*ring, scene, goal, half, keys, failure)) return *found;
     }
   if (auto from = bowed_strut(untwisted)) {
     from->x = from->problem->refine(from->x, from->p);
+    if (!scene.obstacles_keep_half_turn())
+      from = unfold(*from->problem, from->x, from->p, from->newton_iterations);
     const bool turns = scene.ends.twist != 0.0;
     const std::vector<std::string> by_twist{"ends.twist"};
     auto found = reach(*from, untwisted, goal, turns || half, turns ? by_twist : keys, failure);

@@ -126,7 +126,7 @@ std::vector<Successor> after_curvature(const ContactEvent& event, const Strip& s
     if (i < 0 || strip.parts[i].kind != Stretch::gap) continue;
     double widest = 0.0;
     for (Eigen::Index k = 0; k < profile.pieces[i].s.size(); ++k)
-      widest = std::max(widest, std::abs(chain::gap(profile.pieces[i].r.col(k))));
+      widest = std::max(widest, std::abs(profile.obstacles[strip.on[j]].gap(profile.pieces[i].r.col(k))));
     if (widest > 1e-5) continue;
     const auto is_line = [&](int part) {
       return part >= 0 && part < static_cast<int>(strip.parts.size()) &&
@@ -143,7 +143,8 @@ std::vector<Successor> after_curvature(const ContactEvent& event, const Strip& s
   }
   // The touch flattens to a line, or where a line would pull (under low tension) comes apart into two.
   for (const Stretch between : {Stretch::line, Stretch::gap})
-    for (const double length : {0.05, 0.02, 0.1}) out.push_back(widened(strip, j, between, length));
+    for (const double length : {0.05, 0.02, 0.1})
+      out.push_back(widened(strip, j, between, length * profile.unit_length));
   return out;
 }
 
@@ -151,13 +152,23 @@ std::vector<Successor> after_graze(const ContactEvent& event, Strip strip) {
   const int i = event.place;
   if (!strip.mid_touch && strip.starts_at_mid(i) && std::abs(event.s) < 1e-9) {
     strip.mid_touch = true;
+    strip.on[0] = event.obstacle;
     return {strip.successor()};
   }
   const Stretch kind = strip.parts[i].kind;
-  const bool left_tail = !strip.half && i == 0, right_tail = kind == Stretch::tail && !left_tail;
-  strip.split(i, event.s, left_tail ? Stretch::tail : Stretch::gap,
-              right_tail ? Stretch::tail : Stretch::gap);
+  const bool left_tail = !strip.half && i == 0, alone = strip.parts.size() == 1;
+  const bool right_tail = kind == Stretch::tail && (!left_tail || alone);
+  strip.split(i, event.s, left_tail ? Stretch::tail : Stretch::gap, right_tail ? Stretch::tail : Stretch::gap,
+              event.obstacle);
   return {strip.successor()};
+}
+
+/// A line that has buckled off its obstacle: its edges are touches now.
+Successor bowed(int link, Strip strip) {
+  strip.parts[link].kind = Stretch::gap;
+  Successor next = strip.successor();
+  next.bowed = link;
+  return next;
 }
 
 /// Candidates for what follows the event, the other half of a symmetric full chain left as it is.
@@ -180,6 +191,8 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
       return after_curvature(event, strip, profile);
     case Kind::graze:
       return after_graze(event, strip);
+    case Kind::buckling:
+      return {bowed(event.place, strip)};
   }
   return {};
 }
@@ -191,6 +204,7 @@ Successor mirrored(const Successor& next, bool right_changed, int links) {
   const int count = static_cast<int>(next.topology.stretches.size());
   const auto bound = [&](int k) { return right_changed ? next.s[k] : -next.s[count - k]; };
   const auto link = [&](int k) { return right_changed ? k : count - 1 - k; };
+  const auto obstacle = [&](int k) { return next.topology.obstacle(right_changed ? k : count - k); };
   constexpr double middle = 1e-9;
   int first = 0;  // first bound beyond the middle
   while (bound(first) <= middle) ++first;
@@ -205,13 +219,17 @@ Successor mirrored(const Successor& next, bool right_changed, int links) {
     out.source.push_back(image ? links - 1 - same : same);
   };
   for (int k = count; k-- > first;) add(k, true);
-  for (int k = count; k >= first; --k) out.s.push_back(-bound(k));
+  const auto add_bound = [&](double s, int k) {
+    out.s.push_back(s);
+    if (!next.topology.on.empty()) out.topology.on.push_back(obstacle(k));
+  };
+  for (int k = count; k >= first; --k) add_bound(-bound(k), k);
   if (touches) {
     add(first - 1, true);
-    out.s.push_back(0.0);
+    add_bound(0.0, first - 1);
   }
   for (int k = first - 1; k < count; ++k) add(k, false);
-  for (int k = first; k <= count; ++k) out.s.push_back(bound(k));
+  for (int k = first; k <= count; ++k) add_bound(bound(k), k);
   out.nothing_left = !out.topology.contact();
   return out;
 }
@@ -221,8 +239,10 @@ bool symmetric(const Topology& topology, const std::vector<double>& s) {
   if (topology.half ||
       !std::equal(topology.stretches.begin(), topology.stretches.end(), topology.stretches.rbegin()))
     return false;
-  for (std::size_t j = 0; j < s.size(); ++j)
-    if (!(std::abs(s[j] + s[s.size() - 1 - j]) < same)) return false;
+  const int last = static_cast<int>(s.size()) - 1;
+  for (int j = 0; j <= last; ++j)
+    if (!(std::abs(s[j] + s[last - j]) < same) || topology.obstacle(j) != topology.obstacle(last - j))
+      return false;
   return true;
 }
 

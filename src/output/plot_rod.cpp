@@ -78,8 +78,8 @@ std::vector<fs::path> plot_rod(const equilibrium::Solution& solution, const std:
     rows += data_line({curve.s[i], curve.r[i].x(), curve.r[i].y(), curve.r[i].z(), curve.p[i]});
   write("-curve.dat", rows);
   if (!solution.has_cylinder)
-    return run_gnuplot(strut_picture(solution, curve, title, subtitle(solution), stem), folder,
-                       options.formats);
+    return run_gnuplot(strut_picture(solution, curve, options.obstacles, title, subtitle(solution), stem),
+                       folder, options.formats);
 
   const std::vector<PointForce> forces = point_forces(solution);
   const Heights heights = heights_of(curve, forces);

@@ -75,6 +75,8 @@ Table arcs_table(PointColumns::Arcs& a) {
            {"s_begin", "rho", "material arclength of the beginning, 0 at the mid-point", &a.s_begin},
            {"s_end", "rho", "material arclength of the end", &a.s_end},
            {"force", "EI/rho^2", "integral of p", &a.force},
+           {"obstacle", "1", "of a line: the obstacle it lies on, its place in the scene from 0; else -1",
+            &a.obstacle},
            {"sample_begin", "1", "first row in samples", &a.sample_begin},
            {"sample_count", "1", "number of rows in samples", &a.sample_count}}};
 }
@@ -102,6 +104,8 @@ Table joints_table(PointColumns::Joints& j) {
        {"holding", "EI/rho^2",
         "force round the cylinder that holds the rod against sliding along itself, zero at an equilibrium",
         &j.holding},
+       {"obstacle", "1", "of a contact: its obstacle's place in the scene from 0; else -1", &j.obstacle},
+       {"normal", "1", "of a contact: direction of its force on the rod", &j.normal, 3},
        {"r", "rho", "position x, y, z", &j.r, 3}}};
 }
 

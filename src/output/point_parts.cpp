@@ -26,6 +26,7 @@ void append_arc(PointColumns& columns, const ArcRecord& arc) {
   columns.arcs.s_begin.push_back(finite_or(arc.s_begin, arc.s[0]));
   columns.arcs.s_end.push_back(finite_or(arc.s_end, arc.s[arc.s.size() - 1]));
   columns.arcs.force.push_back(finite_or(arc.force, 0.0));
+  columns.arcs.obstacle.push_back(arc.obstacle);
   columns.arcs.sample_begin.push_back(size_of(columns.samples.s));
   columns.arcs.sample_count.push_back(arc.s.size());
   append(columns.samples.s, arc.s);
@@ -45,6 +46,7 @@ ArcRecord read_arc(const PointColumns& columns, std::size_t row) {
   arc.s_begin = arcs.s_begin[row];
   arc.s_end = arcs.s_end[row];
   arc.force = arcs.force[row];
+  arc.obstacle = static_cast<int>(arcs.obstacle[row]);
   arc.s = segment(columns.samples.s, begin, count);
   arc.r = block<3>(columns.samples.r, begin, count);
   arc.q = block<4>(columns.samples.q, begin, count);
@@ -61,6 +63,8 @@ void append_joint(PointColumns& columns, const JointRecord& joint, double neares
   columns.joints.z.push_back(finite_or(joint.z, 0.0));
   columns.joints.force.push_back(finite_or(joint.force, 0.0));
   columns.joints.holding.push_back(finite_or(joint.holding, 0.0));
+  columns.joints.obstacle.push_back(joint.obstacle);
+  for (const double component : joint.normal) columns.joints.normal.push_back(finite_or(component, 0.0));
   for (const double component : joint.r) columns.joints.r.push_back(finite_or(component, 0.0));
 }
 
@@ -73,6 +77,8 @@ JointRecord read_joint(const PointColumns& columns, std::size_t row) {
   joint.z = joints.z[row];
   joint.force = joints.force[row];
   joint.holding = joints.holding[row];
+  joint.obstacle = static_cast<int>(joints.obstacle[row]);
+  joint.normal = block<3>(joints.normal, static_cast<std::int64_t>(row), 1);
   joint.r = block<3>(joints.r, static_cast<std::int64_t>(row), 1);
   return joint;
 }

@@ -107,6 +107,19 @@ ordered_json rod_json(const Solution& solution) {
   return json;
 }
 
+/// Flat obstacles: corners of a rectangle each, beside the whole length of the rod.
+ordered_json sheets_json(const Solution& solution, const obstacle::Set& obstacles) {
+  const double half = 0.5 * (solution.arcs.back().s.tail<1>()[0] - solution.arcs.front().s[0]);
+  const Eigen::AlignedBox3d box(Vector3d(-half, 0.0, 0.0), Vector3d(half, 0.0, 0.0));
+  ordered_json sheets = ordered_json::array();
+  for (int o = 0; o < obstacles.size(); ++o) {
+    ordered_json corners = ordered_json::array();
+    for (const Vector3d& corner : obstacles[o].sheet(box)) corners.push_back(triple(corner));
+    if (!corners.empty()) sheets.push_back(std::move(corners));
+  }
+  return sheets;
+}
+
 struct Quantity {
   const char* name;
   const char* title;
@@ -198,6 +211,7 @@ ordered_json report_data(const Run& run, const ReportOptions& options) {
   for (const SpecialPoint& point : run.special_points) data["special"].push_back(to_json(point));
   const std::size_t stride = 1 + run.points.size() / std::max<std::size_t>(1, options.most_rods);
   data["rods"] = ordered_json::object();
+  data["sheets"] = ordered_json::array();
   for (std::size_t i = 0; i < run.points.size(); ++i) {
     const PointStore::Key& key = run.points.keys()[i];
     if (i % stride != 0 && key.label.empty()) continue;
@@ -205,6 +219,8 @@ ordered_json report_data(const Run& run, const ReportOptions& options) {
     if (solution.arcs.empty()) continue;
     if (options.complete) options.complete(i, solution);
     data["rods"][point_name(key.branch, key.point, key.label)] = rod_json(solution);
+    if (data["sheets"].empty() && !solution.has_cylinder)
+      data["sheets"] = sheets_json(solution, options.obstacles);
   }
   return data;
 }

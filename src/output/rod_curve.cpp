@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace windlass::output {
 
@@ -17,12 +18,13 @@ struct Sample {
   Vector3d r, n, m, r_slope, n_slope, m_slope;
 };
 
-Sample sample(const ArcRecord& arc, Index i) {
+/// @param flat_normal  of a line contact that is not round the cylinder
+Sample sample(const ArcRecord& arc, Index i, const std::optional<Vector3d>& flat_normal) {
   Sample at;
   at.q = Eigen::Quaterniond(arc.q(0, i), arc.q(1, i), arc.q(2, i), arc.q(3, i)).normalized();
   at.r = arc.r.col(i), at.n = arc.n.col(i), at.m = arc.m.col(i);
   at.r_slope = at.q.toRotationMatrix().col(2);
-  at.n_slope = -arc.p[i] * Vector3d(at.r.x(), at.r.y(), 0.0).normalized();
+  at.n_slope = -arc.p[i] * flat_normal.value_or(Vector3d(at.r.x(), at.r.y(), 0.0).normalized());
   at.m_slope = at.n.cross(at.r_slope);
   return at;
 }
@@ -75,10 +77,13 @@ RodCurve dense_curve(const equilibrium::Solution& solution, double spacing) {
   for (std::size_t k = 0; k < solution.arcs.size(); ++k) {
     const ArcRecord& arc = solution.arcs[k];
     const Index last = arc.s.size() - 1;
+    const auto normal = solution.has_cylinder || k >= solution.joints.size()
+                            ? std::nullopt
+                            : std::optional(solution.joints[k].normal);
     for (Index i = 0; i < last; ++i) {
       const double h = arc.s[i + 1] - arc.s[i];
       const int pieces = std::clamp(static_cast<int>(std::ceil(h / spacing)), 1, 40);
-      const Sample a = sample(arc, i), b = sample(arc, i + 1);
+      const Sample a = sample(arc, i, normal), b = sample(arc, i + 1, normal);
       for (int j = 0; j < pieces; ++j) {
         const double x = static_cast<double>(j) / pieces;
         const double p =
@@ -86,7 +91,7 @@ RodCurve dense_curve(const equilibrium::Solution& solution, double spacing) {
         add(curve, k, arc.s[i] + x * h, between(a, b, h, x), p);
       }
     }
-    add(curve, k, arc.s[last], sample(arc, last), arc.p[last]);
+    add(curve, k, arc.s[last], sample(arc, last, normal), arc.p[last]);
   }
   return curve;
 }
@@ -95,7 +100,8 @@ std::vector<PointForce> point_forces(const equilibrium::Solution& solution) {
   std::vector<PointForce> forces;
   for (const auto& joint : solution.joints) {
     if (joint.kind != equilibrium::JointKind::touch && joint.kind != equilibrium::JointKind::edge) continue;
-    const Vector3d outward = Vector3d(joint.r.x(), joint.r.y(), 0.0).normalized();
+    const Vector3d outward =
+        solution.has_cylinder ? Vector3d(joint.r.x(), joint.r.y(), 0.0).normalized() : joint.normal;
     forces.push_back({joint.s, joint.r, outward, joint.force});
   }
   return forces;

@@ -51,6 +51,7 @@ ordered_json contact_json(const Solution& solution) {
                                {"s_begin", finite_or_null(arc.s_begin)},
                                {"s_end", finite_or_null(arc.s_end)},
                                {"force", finite_or_null(arc.force)}});
+    if (!solution.has_cylinder && arc.obstacle >= 0) contact["arcs"].back()["obstacle"] = arc.obstacle + 1;
   }
   contact["joints"] = ordered_json::array();
   for (const JointRecord& joint : solution.joints) {
@@ -59,6 +60,11 @@ ordered_json contact_json(const Solution& solution) {
                                  {"angle", finite_or_null(joint.angle)},
                                  {"z", finite_or_null(joint.z)},
                                  {"force", finite_or_null(joint.force)}});
+    if (!solution.has_cylinder) {  // the place and the obstacle say more than an angle round nothing
+      contact["joints"].back()["r"] = {finite_or_null(joint.r.x()), finite_or_null(joint.r.y()),
+                                       finite_or_null(joint.r.z())};
+      if (joint.obstacle >= 0) contact["joints"].back()["obstacle"] = joint.obstacle + 1;
+    }
     if (joint.holding != 0.0) contact["joints"].back()["holding"] = joint.holding;
   }
   return contact;
@@ -151,6 +157,7 @@ ordered_json to_json(const Solution& solution, const scene::Scene& scene) {
     if (solution.F0) json["F0"] = finite_or_null(*solution.F0);
     json["phi_star"] = finite_or_null(solution.phi_star);
   } else {
+    if (scene.has_obstacles()) json["R_tot"] = finite_or_null(solution.R_tot);
     json["end_force"] = finite_or_null(solution.end_force);
     json["end_moment"] = finite_or_null(solution.end_moment);
     json["shortening"] = finite_or_null(solution.shortening);
@@ -159,7 +166,7 @@ ordered_json to_json(const Solution& solution, const scene::Scene& scene) {
   json["z_span"] = finite_or_null(solution.z_span);
   json["energy"] = finite_or_null(solution.energy);
   json["self_distance"] = finite_or_null(solution.self_distance.value_or(std::nan("")));
-  if (solution.has_cylinder) json["contact"] = contact_json(solution);
+  if (scene.has_obstacles()) json["contact"] = contact_json(solution);
   json["stability"] = stability_json(solution);
   json["invariants"] = {{"hamiltonian_drift", finite_or_null(solution.invariants.hamiltonian_drift)},
                         {"axial_torque_drift", finite_or_null(solution.invariants.axial_torque_drift)},

@@ -26,12 +26,43 @@ bool is_tall(const equilibrium::Solution& solution, const Eigen::AlignedBox3d& b
   return solution.z_span >= 1e-6 && std::max(box.sizes().y(), box.sizes().z()) > 0.6 * box.sizes().x();
 }
 
+/// Obstacles and point forces as gnuplot objects of the view of x and coordinate `up`.
+std::string surroundings(const equilibrium::Solution& solution, const obstacle::Set& obstacles,
+                         const Eigen::AlignedBox3d& box, int up) {
+  std::string text = "  unset arrow\n";
+  const auto place = [&](const Vector3d& r) { return format_number(r.x()) + "," + format_number(r[up]); };
+  const double size = box.sizes().maxCoeff();
+  for (int o = 0; o < obstacles.size(); ++o) {
+    const std::vector<Vector3d> sheet = obstacles[o].sheet(box);
+    if (sheet.empty()) continue;
+    const Vector3d normal = obstacles[o].normal(sheet[0]);
+    constexpr double from_the_side = 1e-9;
+    if (std::abs(normal[3 - up]) > from_the_side) continue;
+    text +=
+        "  set arrow from " + place(sheet[0]) + " to " + place(sheet[1]) + " nohead lc rgb '#9a9aa4' lw 4\n";
+  }
+  double largest = 0.0;
+  for (const PointForce& force : point_forces(solution)) largest = std::max(largest, force.size);
+  for (const PointForce& force : point_forces(solution))
+    if (force.size > 0.0)
+      text += "  set arrow from " + place(force.r) + " to " +
+              place(force.r + 0.12 * size * force.size / largest * force.direction) +
+              " head filled size screen 0.012,20 lc rgb '#c00000' lw 2\n";
+  return text;
+}
+
 }  // namespace
 
-Picture strut_picture(const equilibrium::Solution& solution, const RodCurve& curve, const std::string& title,
-                      const std::string& subtitle, const std::string& stem) {
+Picture strut_picture(const equilibrium::Solution& solution, const RodCurve& curve,
+                      const obstacle::Set& obstacles, const std::string& title, const std::string& subtitle,
+                      const std::string& stem) {
   Eigen::AlignedBox3d box;
   for (const Vector3d& r : curve.r) box.extend(r);
+  const Eigen::AlignedBox3d rod = box;
+  for (int o = 0; o < obstacles.size(); ++o)  // those near the rod are in the picture
+    for (const Vector3d& corner : obstacles[o].sheet(rod))
+      if (std::abs(corner.y()) < 0.5 * rod.sizes().x())
+        box.extend(Vector3d(rod.center().x(), corner.y(), 0.0));
   const bool planar = solution.z_span < 1e-6, tall = is_tall(solution, box);
   const double margin = 0.08 * box.sizes().maxCoeff(),
                half = 0.5 * std::max(box.sizes().y(), planar ? 0.0 : box.sizes().z()) + margin;
@@ -50,6 +81,7 @@ Picture strut_picture(const equilibrium::Solution& solution, const RodCurve& cur
   text += "  set label 2 " + gnuplot_text(subtitle, false) + " at screen 0.5, screen 0.91 center font ',9'\n";
   text += range("xrange", box.min().x() - margin, box.max().x() + margin) + "  set xlabel 'x  [ρ]'\n";
   for (int k = 1; k <= (planar ? 1 : 2); ++k) {
+    text += surroundings(solution, obstacles, rod, k);
     text += range("yrange", box.center()[k] - half, box.center()[k] + half) + "  set ylabel '" +
             (k == 1 ? "y" : "z") + "  [ρ]'\n  plot '" + stem +
             "-curve.dat' using 2:" + std::to_string(k + 2) +

@@ -65,15 +65,30 @@ Entry make_entry(std::string key, std::string place, const toml::node& node) {
     entry.shown = flag->get() ? "true" : "false";
   } else {
     entry.shown = shown_as_it_stands(node);
+    if (const auto* array = node.as_array())
+      for (const auto& element : *array)
+        if (const auto number = element.value<double>()) entry.numbers.push_back(*number);
   }
   return entry;
+}
+
+std::vector<Entry> entries_of(const toml::table& table, const std::string& prefix, const Document& document) {
+  std::vector<Entry> entries;
+  for (const auto& [key, node] : table)
+    entries.push_back(make_entry(prefix + std::string(key.str()),
+                                 fmt::format("{}:{}", document.file, node.source().begin.line), node));
+  return entries;
 }
 
 void flatten(const toml::table& table, const std::string& prefix, Document& document) {
   for (const auto& [key, node] : table) {
     const std::string name = prefix + std::string(key.str());
     const int line = static_cast<int>(node.source().begin.line);
-    if (const auto* inner = node.as_table()) {
+    const auto* array = node.as_array();
+    if (name == "wall" && array && array->is_array_of_tables()) {
+      for (const auto& element : *array)
+        document.walls.push_back(entries_of(*element.as_table(), "wall.", document));
+    } else if (const auto* inner = node.as_table()) {
       document.tables[name] = line;
       flatten(*inner, name + ".", document);
     } else {

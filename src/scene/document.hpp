@@ -20,7 +20,8 @@ struct Entry {
   std::string key;    ///< dotted
   std::string place;  ///< "capstan.toml:7" or "--set"
   std::variant<double, std::int64_t, bool, std::string, OtherValue> value;
-  std::string shown;  ///< the value as the user wrote it, for messages
+  std::string shown;                 ///< the value as the user wrote it, for messages
+  std::vector<double> numbers = {};  ///< of an array of numbers
 
   /// `capstan.toml:7: load.tension = -1: `, the beginning of every message about this entry.
   std::string prefix() const;
@@ -30,6 +31,7 @@ struct Document {
   std::string file;
   std::vector<Entry> entries;             ///< in file order, overrides replacing what they override
   std::map<std::string, int> tables;      ///< line of each [table]
+  std::vector<std::vector<Entry>> walls;  ///< entries of each [[wall]]
   std::map<std::string, Entry> replaced;  ///< entries of the file that an override took the place of
 
   const Entry* find(std::string_view key) const;

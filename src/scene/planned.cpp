@@ -27,7 +27,6 @@ constexpr Planned planned[] = {
     {"cylinder.sliding", "\"none\"", "sliding"},
     {"cylinder.friction_couple", "true", "sliding"},
     {"ends.travel", "\"free\"", "sliding"},
-    {"wall", "", "walls"},
     {"plate", "", "a plate"},
     {"knot.kind", "\"none\"", "knots"},
     {"knot.curve", "", "knots"},
@@ -58,11 +57,10 @@ void settle_planned(Document& document) {
   for (const Entry& entry : document.entries) {
     const Planned* row = find_planned(entry.key);
     if (!row || as_toml(entry) == row->allowed) continue;
-    throw SceneError(fmt::format("{}{} not built yet; must be {}", entry.prefix(),
-                                 row->what == "walls" || row->what == "knots"
-                                     ? fmt::format("{} are", row->what)
-                                     : fmt::format("{} is", row->what),
-                                 row->allowed.empty() ? "left out" : row->allowed));
+    throw SceneError(
+        fmt::format("{}{} not built yet; must be {}", entry.prefix(),
+                    row->what == "knots" ? fmt::format("{} are", row->what) : fmt::format("{} is", row->what),
+                    row->allowed.empty() ? "left out" : row->allowed));
   }
   std::erase_if(document.entries, [](const Entry& entry) { return find_planned(entry.key); });
   for (auto table = document.tables.begin(); table != document.tables.end();)

@@ -11,6 +11,7 @@
 #include "planned.hpp"
 #include "rules.hpp"
 #include "values.hpp"
+#include "walls.hpp"
 #include "windlass/scene/keys.hpp"
 #include "windlass/scene/resolved.hpp"
 
@@ -25,6 +26,7 @@ class Resolver {
   Resolver(const Document& document, const ReadOptions& options) : document_(document), options_(options) {}
 
   Scene resolve(const std::string& name) {
+    refuse_single_wall(document_);
     check_names(document_);
     scene_.name = name;
     scene_.has_cylinder = document_.tables.contains("cylinder");
@@ -32,6 +34,7 @@ class Resolver {
     find_units();
     for (const Entry& entry : document_.entries) fill(entry);
     derive();
+    scene_.walls = read_walls(document_, scene_, physical_);
     check_rules(document_, scene_, options_.restart);
     scene_.resolved_toml = to_toml(scene_);
     return scene_;

@@ -37,6 +37,9 @@ std::string to_toml(const Scene& scene) {
     if (opens) out += fmt::format("\n[{}]\n", table = key.table());
     if (!value.empty()) out += fmt::format("{} = {}\n", key.leaf(), value);
   }
+  for (const Wall& wall : scene.walls)
+    out += fmt::format("\n[[wall]]\nnormal = [{}, {}, {}]\ndistance = {}\n", wall.normal[0], wall.normal[1],
+                       wall.normal[2], number_text(wall.distance));
   if (scene.units)
     out += fmt::format("\n[scale]\nlength = {}\nbending_stiffness = {}\n", number_text(scene.units->length),
                        number_text(scene.units->bending_stiffness));

@@ -24,6 +24,9 @@ void check_ends(const Document& document, const Scene& scene) {
   if (unlike && scene.model.symmetry == Symmetry::half_turn)
     forbid(document, "model.symmetry",
            "must not be \"half_turn\": the two ends of the rod are held differently");
+  if (!scene.obstacles_keep_half_turn() && scene.model.symmetry == Symmetry::half_turn)
+    forbid(document, "model.symmetry",
+           "must not be \"half_turn\": a wall is not its own image under the half-turn about e_y");
   for (const char* key : {"ends.kind", "ends.left", "ends.right"}) {
     const EndKind kind = key[5] == 'l'   ? scene.ends.left_kind()
                          : key[5] == 'r' ? scene.ends.right_kind()

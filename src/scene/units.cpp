@@ -196,6 +196,7 @@ Scene in_units(Scene scene, const Units& units) {
     if (scale == 1.0) continue;
     if (const std::optional<double> value = key.get(scene)) key.set(scene, *value / scale);
   }
+  for (Wall& wall : scene.walls) wall.distance /= units.length;
   scene.solved_in = Units::of(scene.solved_in.length * units.length,
                               scene.solved_in.bending_stiffness * units.bending_stiffness);
   return scene;

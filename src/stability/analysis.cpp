@@ -99,6 +99,9 @@ Stability analyse(RodProblem& given, const Vector& at_x, const Vector& p, int co
   if (static_cast<int>(all.size()) > std::max(count, out.index)) all.resize(std::max(count, out.index));
   for (const Mode& mode : all) out.eigenvalues.push_back(mode.eigenvalue);
   if (modes) out.modes = std::move(all);
+  // An arc about to buckle by itself, see contact::spatial::FreeRodEnd: zero to second order.
+  for (int j = 0; j < problem.chain().joint_count(); ++j)
+    out.degenerate |= !problem.chain().joint(j).fixed_in_variations().empty();
   equilibrium::multiply(out, given.units());
   return out;
 }

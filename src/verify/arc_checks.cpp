@@ -20,22 +20,23 @@ double frame_distance(const Eigen::Vector4d& a, const Eigen::Vector4d& b) {
   return std::min((a - b).norm(), (a + b).norm());
 }
 
-Eigen::Vector3d outward_normal(const Eigen::Vector3d& r) {
-  return Eigen::Vector3d(r.x(), r.y(), 0.0).normalized();
+const Shape* shape_of(const std::vector<Shape>& shapes, int obstacle) {
+  if (shapes.size() == 1) return &shapes.front();
+  return obstacle >= 0 && obstacle < static_cast<int>(shapes.size()) ? &shapes[obstacle] : nullptr;
 }
 
 namespace {
 
-/// Distance of a section from the cylinder with its first and second derivative along the rod.
+/// Distance of a section from an obstacle with its first and second derivative along the rod.
 struct Gap {
   double value, rate, bend = 0.0;
   Gap(double v, double r) : value(v), rate(r) {}
-  explicit Gap(const Section& x)
-      : value(std::hypot(x.r.x(), x.r.y()) - 1.0), rate(outward_normal(x.r).dot(tangent(x))) {}
-  Gap(const Section& x, const Stiffness& law) : Gap(x) {
+  Gap(const Section& x, const Shape& shape)
+      : value(shape.gap(x.r)), rate(shape.outward(x.r).dot(tangent(x))) {}
+  Gap(const Section& x, const Shape& shape, const Stiffness& law) : Gap(x, shape) {
     const Eigen::Matrix3d d = rotation(x.q);
     const Eigen::Vector3d t = d.col(2), slope = (d * law.strain(x)).cross(t);
-    bend = outward_normal(x.r).dot(slope) + (t.head<2>().squaredNorm() - rate * rate) / (1.0 + value);
+    bend = shape.outward(x.r).dot(slope) + shape.bend(x.r, t);
   }
 };
 
@@ -116,28 +117,39 @@ void compare(const Section& reached, const Section& stored, const Scales& scales
   found.force.add((reached.n - stored.n).norm() / scales.force);
 }
 
-void check_sample(const ArcRecord& arc, Eigen::Index i, const Stiffness& law, const Scales& scales,
+/// What is checked against: the material, the obstacles, and the one that an arc lies on.
+struct Surroundings {
+  const Stiffness& law;
+  const std::vector<Shape>& shapes;
+  const Shape& below;
+  double pressure(const Section& x) const {
+    return below.wall() ? plane_pressure(x, law, *below.wall()) : surface_pressure(x, law.K[0]);
+  }
+};
+
+void check_sample(const ArcRecord& arc, Eigen::Index i, const Surroundings& around, const Scales& scales,
                   Collected& found) {
   if (arc.kind != ArcKind::line) return;
   const Section stored = sample(arc, i);
   const double pressure = arc.p[i];
   found.pressures.emplace_back(arc.s[i], pressure);
-  found.off_surface.add(std::abs(Gap(stored).value));
-  found.off_surface.add(std::abs(Gap(stored).rate));
-  found.pressure.add(std::abs(pressure - surface_pressure(stored, law.K[0])) / scales.force);
+  found.off_surface.add(std::abs(Gap(stored, around.below).value));
+  found.off_surface.add(std::abs(Gap(stored, around.below).rate));
+  found.pressure.add(std::abs(pressure - around.pressure(stored)) / scales.force);
 }
 
-/// What is true along a trajectory between two samples: distance from the cylinder, sign of the pressure.
-void look_along(const std::vector<Section>& sections, double begin, double h, ArcKind kind, bool has_cylinder,
-                const Stiffness& law, Collected& found) {
+/// What is true along a trajectory between two samples: distance from the obstacles, sign of the pressure.
+void look_along(const std::vector<Section>& sections, double begin, double h, ArcKind kind,
+                const Surroundings& around, Collected& found) {
   for (std::size_t k = 1; k < sections.size(); ++k) {
     if (kind == ArcKind::line) {
-      found.off_surface.add(std::abs(Gap(sections[k]).value));
-      found.pressures.emplace_back(begin + static_cast<double>(k) * h,
-                                   surface_pressure(sections[k], law.K[0]));
-    } else if (has_cylinder) {
-      found.gap.add(smallest_between(Gap(sections[k - 1], law), Gap(sections[k], law), h));
+      found.off_surface.add(std::abs(Gap(sections[k], around.below).value));
+      found.pressures.emplace_back(begin + static_cast<double>(k) * h, around.pressure(sections[k]));
     }
+    for (const Shape& shape : around.shapes)
+      if (kind == ArcKind::free || &shape != &around.below)
+        found.gap.add(smallest_between(Gap(sections[k - 1], shape, around.law),
+                                       Gap(sections[k], shape, around.law), h));
   }
 }
 
@@ -149,10 +161,10 @@ bool close(const Section& a, const Section& b, const Scales& scales) {
 }
 
 /// Integrates from one sample to the next. @return the contact force on the way
-double integrate_piece(RodFlow& flow, const ArcRecord& arc, Eigen::Index i, bool has_cylinder,
-                       const Stiffness& law, const Scales& scales, Collected& found) {
+double integrate_piece(RodFlow& flow, const ArcRecord& arc, Eigen::Index i, const Surroundings& around,
+                       const Scales& scales, Collected& found) {
   const Section start = sample(arc, i), stored = sample(arc, i + 1);
-  const double length = arc.s[i + 1] - arc.s[i], growth = scales.moment / std::sqrt(law.K[0]);
+  const double length = arc.s[i + 1] - arc.s[i], growth = scales.moment / std::sqrt(around.law.K[0]);
   if (std::abs(length) < tight) {  // an arc that vanishes at an event: both samples are one place
     compare(start, stored, scales, found);
     return arc.kind == ArcKind::line ? 0.5 * (arc.p[i] + arc.p[i + 1]) * length : 0.0;
@@ -165,7 +177,7 @@ double integrate_piece(RodFlow& flow, const ArcRecord& arc, Eigen::Index i, bool
       sections.push_back(flow.advance(k == looks ? length : k * length / looks));
     if (growth * length < 1.0 || close(sections.back(), stored, scales)) {
       compare(sections.back(), stored, scales, found);
-      look_along(sections, arc.s[i], length / looks, arc.kind, has_cylinder, law, found);
+      look_along(sections, arc.s[i], length / looks, arc.kind, around, found);
       return flow.contact_force();
     }
   }
@@ -174,18 +186,17 @@ double integrate_piece(RodFlow& flow, const ArcRecord& arc, Eigen::Index i, bool
   compare(shadow.end, stored, scales, found);
   if (!shadow.converged) found.position.add(NAN);
   look_along(shadow.stations, arc.s[i], length / static_cast<double>(shadow.stations.size() - 1), arc.kind,
-             has_cylinder, law, found);
+             around, found);
   return shadow.contact_force;
 }
 
-void integrate(const ArcRecord& arc, const Stiffness& law, bool has_cylinder, const Scales& scales,
-               Collected& found) {
-  RodFlow flow(law, arc.kind, scales.tolerance);
+void integrate(const ArcRecord& arc, const Surroundings& around, const Scales& scales, Collected& found) {
+  RodFlow flow(around.law, arc.kind, scales.tolerance, around.below);
   double contact_force = 0.0;
-  check_sample(arc, 0, law, scales, found);
+  check_sample(arc, 0, around, scales, found);
   for (Eigen::Index i = 0; i + 1 < arc.s.size(); ++i) {
-    contact_force += integrate_piece(flow, arc, i, has_cylinder, law, scales, found);
-    check_sample(arc, i + 1, law, scales, found);
+    contact_force += integrate_piece(flow, arc, i, around, scales, found);
+    check_sample(arc, i + 1, around, scales, found);
   }
   if (arc.kind == ArcKind::line) {
     judge_pressures(scales, found);
@@ -199,13 +210,17 @@ void integrate(const ArcRecord& arc, const Stiffness& law, bool has_cylinder, co
 
 void check_arcs(const Solution& solution, const scene::Scene& scene, const Scales& scales, CheckList& list) {
   const Stiffness law(scene.rod);
+  const std::vector<Shape> shapes = shapes_of(scene);
+  const Shape none = Shape::cylinder();  // of free arcs
   Collected found;
   Largest norm;
   bool any_line = false;
   for (const ArcRecord& arc : solution.arcs) {
     any_line = any_line || arc.kind == ArcKind::line;
     for (Eigen::Index i = 0; i < arc.s.size(); ++i) norm.add(std::abs(arc.q.col(i).norm() - 1.0));
-    integrate(arc, law, solution.has_cylinder, scales, found);
+    const Shape* below = arc.kind == ArcKind::line ? shape_of(shapes, arc.obstacle) : nullptr;
+    if (arc.kind == ArcKind::line && !below) found.off_surface.add(NAN);  // a line on nothing
+    integrate(arc, {law, shapes, below ? *below : none}, scales, found);
   }
   list.at_most("unit_quaternions", norm.value(), tight, "largest | |q| - 1 |");
   list.at_most("arc_position", found.position.value(), tight,
@@ -214,10 +229,10 @@ void check_arcs(const Solution& solution, const scene::Scene& scene, const Scale
   list.at_most("arc_moment", found.moment.value(), tight, "integrated against stored m, / max(1, sqrt(T))");
   list.at_most("arc_force", found.force.value(), tight, "integrated against stored n, / max(1, T)");
   if (found.gap.any())
-    list.at_least("gap", found.gap.value(), -tight, "smallest distance of free arcs from the cylinder");
+    list.at_least("gap", found.gap.value(), -tight, "smallest distance of free arcs from the obstacles");
   if (!any_line) return;
   list.at_most("on_surface", found.off_surface.value(), tight,
-               "distance from the cylinder and slope to it on line arcs");
+               "distance from the obstacle and slope to it on line arcs");
   list.at_least(
       "pressure", found.smallest_pressure.value(), -tight,
       "smallest contact pressure, / max(1, T), but for suction that lifts the rod by less than 1e-9");

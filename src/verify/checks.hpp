@@ -15,8 +15,8 @@ Section first_section(const equilibrium::ArcRecord& arc);
 Section last_section(const equilibrium::ArcRecord& arc);
 /// Size of the difference of two frames; q and -q are the same frame.
 double frame_distance(const Eigen::Vector4d& a, const Eigen::Vector4d& b);
-/// Outward normal of the cylinder at r.
-Eigen::Vector3d outward_normal(const Eigen::Vector3d& r);
+/// The obstacle that a contact names, null where there is none of that number.
+const Shape* shape_of(const std::vector<Shape>& shapes, int obstacle);
 
 /// Empty when counts, shapes, order of s and finiteness are right; otherwise what is wrong.
 std::string structure_error(const equilibrium::Solution& solution);

@@ -24,6 +24,23 @@ class Drift {
   Smallest low_, high_;
 };
 
+using Eigen::Vector3d;
+
+/// A direction along all walls, that of e_x if it is one; nothing where there is none.
+std::optional<Vector3d> along_all(const std::vector<scene::Wall>& walls) {
+  constexpr double none = 1e-9;
+  Eigen::MatrixXd normals(walls.size(), 3);
+  for (std::size_t k = 0; k < walls.size(); ++k)
+    normals.row(static_cast<Eigen::Index>(k)) = Shape::of(walls[k]).wall()->transpose();
+  Eigen::FullPivLU<Eigen::MatrixXd> factors(normals);
+  const Eigen::MatrixXd ways = factors.setThreshold(none).kernel();
+  if (ways.isZero(none)) return std::nullopt;
+  const Eigen::HouseholderQR<Eigen::MatrixXd> orthonormal(ways);
+  const Eigen::MatrixXd basis = orthonormal.householderQ() * Eigen::MatrixXd::Identity(3, ways.cols());
+  const Vector3d projected = basis * basis.row(0).transpose();  // of e_x
+  return projected.norm() > none ? Vector3d(projected.normalized()) : Vector3d(basis.col(0));
+}
+
 }  // namespace
 
 void check_invariants(const Solution& solution, const scene::Scene& scene, const Scales& scales,
@@ -31,6 +48,9 @@ void check_invariants(const Solution& solution, const scene::Scene& scene, const
   const Stiffness law(scene.rod);
   Drift hamiltonian, torque, axial_force, twist;
   Largest free_force;
+  // Walls push across e_z and have moments about it: the force along all of them is what is kept, if there is such a way.
+  const bool walls = !scene.walls.empty();
+  const std::optional<Vector3d> along = walls ? along_all(scene.walls) : Vector3d(Vector3d::UnitZ());
   for (std::size_t k = 0; k < solution.arcs.size(); ++k) {
     const ArcRecord& arc = solution.arcs[k];
     if (solution.joints[k].holding != 0.0)  // a force along the rod changes them
@@ -39,14 +59,17 @@ void check_invariants(const Solution& solution, const scene::Scene& scene, const
       const Section x = sample(arc, i);
       hamiltonian.add(law.hamiltonian(x) / scales.force);
       torque.add((x.m + x.r.cross(x.n)).z() / scales.force);
-      axial_force.add(x.n.z() / scales.force);
+      if (along) axial_force.add(x.n.dot(*along) / scales.force);
       twist.add(x.m.dot(tangent(x)) / scales.moment);
       if (arc.kind == equilibrium::ArcKind::free) free_force.add((x.n - arc.n.col(0)).norm() / scales.force);
     }
   }
   list.at_most("hamiltonian_drift", hamiltonian.value(), tight, "range of H = m·u - W + n·d3, / max(1, T)");
-  list.at_most("axial_torque_drift", torque.value(), tight, "range of (m + r×n)·e_z, / max(1, T)");
-  list.at_most("axial_force_drift", axial_force.value(), tight, "range of n_z, / max(1, T)");
+  if (!walls)
+    list.at_most("axial_torque_drift", torque.value(), tight, "range of (m + r×n)·e_z, / max(1, T)");
+  if (along)
+    list.at_most("axial_force_drift", axial_force.value(), tight,
+                 walls ? "range of the force along the walls, / max(1, T)" : "range of n_z, / max(1, T)");
   list.at_most("free_arc_force", free_force.value(), tight, "change of n along free arcs, / max(1, T)");
   const bool isotropic =
       scene.rod.bending_stiffness == scene.rod.bending_stiffness_2 && scene.rod.natural_curvature == 0.0;

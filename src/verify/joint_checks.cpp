@@ -10,7 +10,9 @@ using equilibrium::JointKind;
 using equilibrium::JointRecord;
 using equilibrium::Solution;
 
-void check_joints(const Solution& solution, const scene::Scene&, const Scales& scales, CheckList& list) {
+void check_joints(const Solution& solution, const scene::Scene& scene, const Scales& scales,
+                  CheckList& list) {
+  const std::vector<Shape> shapes = shapes_of(scene);
   Largest position, frame, moment, force, surface, tangency, holding;
   Smallest contact;
   for (std::size_t k = 0; k < solution.joints.size(); ++k) {
@@ -26,10 +28,12 @@ void check_joints(const Solution& solution, const scene::Scene&, const Scales& s
     moment.add((before.m - after.m).norm() / scales.moment);
     Vector3d jump = after.n - before.n + joint.holding * joint.holding_direction();
     if (in_contact) {
+      const Shape* shape = shape_of(shapes, joint.obstacle);
       // balance of the joint: n(after) - n(before) + f N = 0
-      jump += joint.force * outward_normal(after.r);
-      surface.add(std::abs(std::hypot(after.r.x(), after.r.y()) - 1.0));
-      tangency.add(std::abs(outward_normal(after.r).dot(tangent(after))));
+      const Vector3d outward = shape ? shape->outward(after.r) : Vector3d(Vector3d::Constant(NAN));
+      jump += joint.force * outward;
+      surface.add(shape ? std::abs(shape->gap(after.r)) : NAN);
+      tangency.add(std::abs(outward.dot(tangent(after))));
     }
     force.add(jump.norm() / scales.force);
   }
@@ -43,8 +47,9 @@ void check_joints(const Solution& solution, const scene::Scene&, const Scales& s
                "force that holds the rod against sliding along itself, / max(1, T): no equilibrium with it");
   if (!contact.any()) return;
   list.at_least("point_force", contact.value(), -tight, "smallest contact point force, / max(1, T)");
-  list.at_most("contact_position", surface.value(), tight, "distance of touches and edges from the cylinder");
-  list.at_most("tangency", tangency.value(), tight, "slope to the cylinder at touches and edges");
+  list.at_most("contact_position", surface.value(), tight,
+               "distance of touches and edges from their obstacles");
+  list.at_most("tangency", tangency.value(), tight, "slope to the obstacle at touches and edges");
 }
 
 namespace {
@@ -122,6 +127,19 @@ void check_totals(const Solution& solution, const scene::Scene& scene, const Sca
     list.at_most("rod_length", std::abs(length / scene.rod.length - 1.0), tight,
                  "length of the stored rod against the scene's, relative");
   }
+  double sum = 0.0, first = 0.0, last = 0.0;
+  bool any = false;
+  for (const ArcRecord& arc : solution.arcs) sum += arc.force;
+  for (const JointRecord& joint : solution.joints) {
+    if (joint.kind != JointKind::touch && joint.kind != JointKind::edge) continue;
+    sum += joint.force;
+    if (!any) first = joint.angle;
+    last = joint.angle;
+    any = true;
+  }
+  if (any)
+    list.at_most("total_contact_force", std::abs(sum - solution.R_tot) / std::max(scales.force, sum), tight,
+                 "reported R_tot against the sum of all contact forces, / max(1, T, R_tot)");
   if (!solution.has_cylinder) {
     const Section end = last_section(solution.arcs.back());
     list.at_most("end_force", std::abs(solution.end_force + end.n.x()) / scales.force, tight,
@@ -136,18 +154,6 @@ void check_totals(const Solution& solution, const scene::Scene& scene, const Sca
                std::max(std::abs(solution.T - scene.load.tension) / scales.force,
                         std::abs(solution.phi - scene.load.angle)),
                tight, "stored T and phi against those of the scene, T / max(1, T)");
-  double sum = 0.0, first = 0.0, last = 0.0;
-  bool any = false;
-  for (const ArcRecord& arc : solution.arcs) sum += arc.force;
-  for (const JointRecord& joint : solution.joints) {
-    if (joint.kind != JointKind::touch && joint.kind != JointKind::edge) continue;
-    sum += joint.force;
-    if (!any) first = joint.angle;
-    last = joint.angle;
-    any = true;
-  }
-  list.at_most("total_contact_force", std::abs(sum - solution.R_tot) / std::max(scales.force, sum), tight,
-               "reported R_tot against the sum of all contact forces, / max(1, T, R_tot)");
   if (any) {
     list.at_most("contact_angle", std::abs(0.5 * (last - first) - solution.phi_star), tight,
                  "reported phi_star against the outermost contacts");

@@ -55,6 +55,19 @@ double surface_pressure(const Section& section, double bending_stiffness) {
   return -without_p / per_p;
 }
 
+double plane_pressure(const Section& section, const Stiffness& stiffness, const Vector3d& normal) {
+  const Eigen::Matrix3d to_body = rotation(section.q).transpose();
+  const Vector3d m = to_body * section.m, n = to_body * section.n, N = to_body * normal,
+                 e3 = Vector3d::UnitZ();
+  const auto strained = [&](const Vector3d& moment) { return Vector3d(moment.cwiseQuotient(stiffness.K)); };
+  const Vector3d u = stiffness.strain(section);
+  const Vector3d m1 = n.cross(e3) - u.cross(m), u1 = strained(m1), n1 = -u.cross(n);
+  const Vector3d u2 = strained(n1.cross(e3) - u1.cross(m) - u.cross(m1)), u2_by_p = strained(-N.cross(e3));
+  const Vector3d w = u.cross(e3), w1 = u1.cross(e3);  // t' = R w, t'' = R (u × w + w')
+  const Vector3d third = u.cross(u.cross(w) + w1) + u1.cross(w) + u.cross(w1) + u2.cross(e3);
+  return -N.dot(third) / N.dot(u2_by_p.cross(e3));
+}
+
 namespace {
 
 constexpr int free_size = 10;  // r, q, m; n is a constant of the arc
@@ -75,6 +88,7 @@ void check(int flag, const char* what) {
 struct RodFlow::Memory {
   Stiffness stiffness;
   equilibrium::ArcKind kind;
+  Shape shape;
   SUNContext context = nullptr;
   N_Vector state = nullptr;
   SUNNonlinearSolver iteration = nullptr;
@@ -84,7 +98,8 @@ struct RodFlow::Memory {
       Vector3d::Zero();  // subtracted from r, so that tolerances do not scale with far positions
   double reached = 0.0;
 
-  Memory(const Stiffness& law, equilibrium::ArcKind arc_kind) : stiffness(law), kind(arc_kind) {}
+  Memory(const Stiffness& law, equilibrium::ArcKind arc_kind, const Shape& below)
+      : stiffness(law), kind(arc_kind), shape(below) {}
   Memory(const Memory&) = delete;
   Memory& operator=(const Memory&) = delete;
   ~Memory() {
@@ -123,13 +138,14 @@ void RodFlow::Memory::rates(const double* y, double* rate) const {
   put<3>(rate + 4, 0.5 * (x.q[0] * u + v.cross(u)));
   put<3>(rate + 7, x.n.cross(t));
   if (!on_surface()) return;
-  const double p = surface_pressure(x, stiffness.K[0]);
-  put<3>(rate + 10, -p * Vector3d(x.r.x(), x.r.y(), 0.0));
+  const double p =
+      shape.wall() ? plane_pressure(x, stiffness, *shape.wall()) : surface_pressure(x, stiffness.K[0]);
+  put<3>(rate + 10, -p * shape.wall().value_or(Vector3d(x.r.x(), x.r.y(), 0.0)));
   rate[13] = p;
 }
 
-RodFlow::RodFlow(const Stiffness& stiffness, equilibrium::ArcKind kind, double tolerance)
-    : memory_(std::make_unique<Memory>(stiffness, kind)) {
+RodFlow::RodFlow(const Stiffness& stiffness, equilibrium::ArcKind kind, double tolerance, const Shape& shape)
+    : memory_(std::make_unique<Memory>(stiffness, kind, shape)) {
   Memory& memory = *memory_;
   check(SUNContext_Create(nullptr, &memory.context), "context");
   memory.state = N_VNew_Serial(memory.on_surface() ? line_size : free_size, memory.context);
@@ -154,7 +170,7 @@ RodFlow::~RodFlow() = default;
 void RodFlow::restart(const Section& start) {
   Memory& memory = *memory_;
   memory.n = start.n;
-  memory.origin = memory.on_surface() ? Vector3d(0.0, 0.0, start.r.z()) : start.r;
+  memory.origin = memory.on_surface() && !on_wall() ? Vector3d(0.0, 0.0, start.r.z()) : start.r;
   double* y = N_VGetArrayPointer(memory.state);
   put<3>(y, start.r - memory.origin);
   put<4>(y + 3, start.q.normalized());
@@ -173,6 +189,8 @@ Section RodFlow::advance(double s) {
     check(CVode(memory.cvode, s, memory.state, &memory.reached, CV_NORMAL), "integration");
   return memory.section(N_VGetArrayPointer(memory.state));
 }
+
+bool RodFlow::on_wall() const { return memory_->shape.wall().has_value(); }
 
 double RodFlow::contact_force() const {
   return memory_->on_surface() ? N_VGetArrayPointer(memory_->state)[13] : 0.0;

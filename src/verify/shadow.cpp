@@ -190,9 +190,9 @@ std::vector<Section> guesses_line(const Section& first, const Section& last, dou
   return sections;
 }
 
-std::vector<Section> guesses(equilibrium::ArcKind kind, const Section& first, const Section& last, double h,
+std::vector<Section> guesses(bool round_cylinder, const Section& first, const Section& last, double h,
                              int pieces) {
-  if (kind == equilibrium::ArcKind::line) return guesses_line(first, last, h, pieces);
+  if (round_cylinder) return guesses_line(first, last, h, pieces);
   std::vector<Section> sections;
   for (int k = 0; k <= pieces; ++k)
     sections.push_back(guess_free(first, last, h, static_cast<double>(k) / pieces));
@@ -207,7 +207,8 @@ Shadow find_shadow(RodFlow& flow, equilibrium::ArcKind kind, const Section& firs
   const int pieces = std::clamp(static_cast<int>(std::ceil(growth * h / 3.0)), 2, most_pieces);
   const Packing packing(kind, first, growth);
   Shooting shooting{packing, flow, h / pieces, {}};
-  for (const Section& section : guesses(kind, first, last, h, pieces))
+  const bool round_cylinder = kind == equilibrium::ArcKind::line && !flow.on_wall();
+  for (const Section& section : guesses(round_cylinder, first, last, h, pieces))
     shooting.stations.push_back(packing.pack(section));
   // of the two quaternions of the last frame, the one that the trajectory arrives at
   Section goal = last;

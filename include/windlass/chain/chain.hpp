@@ -183,7 +183,8 @@ class Chain {
   void keep_coordinates();
   /// Coordinates of a joint that vary.
   const std::vector<int>& kept(Purpose purpose, int joint) const {
-    if (purpose == Purpose::equilibrium || (half() && joint > 0)) return kept_[joint];
+    if (purpose == Purpose::equilibrium) return kept_[joint];
+    if (half() && joint > 0) return varied_[joint];
     return purpose == Purpose::odd ? odd_ : half() ? kept_[0] : varied_[joint];
   }
   /// Motion of the phase gauge as an increment: dense block, then interiors.

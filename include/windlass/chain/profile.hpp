@@ -11,7 +11,8 @@ namespace windlass::chain {
 /// One arc sampled at its Lagrange points. World frame, dimensionless; shapes as in equilibrium::ArcRecord.
 struct Piece {
   Stretch stretch = Stretch::tail;
-  int stride = 1;  ///< samples an element: polynomials of this degree run through stride + 1 samples
+  int obstacle = 0;  ///< of a line
+  int stride = 1;    ///< samples an element: polynomials of this degree run through stride + 1 samples
   VectorXd s;
   Eigen::Matrix3Xd r, n, m;
   Eigen::Matrix4Xd q;
@@ -20,20 +21,26 @@ struct Piece {
   VectorXd p;            ///< contact force per length
   VectorXd inclination;  ///< of the tangent to the plane of the cylinder's section [rad]
   double force = 0.0;    ///< ∫ p ds
+  /// Of a line that carries no pressure, see rod::buckling_margin.
+  std::optional<double> buckling;
 };
 
 /// A contact joint as seen from outside.
 struct Contact {
   int joint = 0;
+  int obstacle = 0;
   bool edge = false;
-  double s = 0.0, angle = 0.0, z = 0.0;
-  double force = 0.0;          ///< outward on the rod; >= 0 where the contact holds
-  double gap_curvature = 0.0;  ///< g'' at a touch, >= 0
+  double s = 0.0, angle = 0.0, z = 0.0;  ///< angle: unrolled, round e_z
+  Eigen::Vector3d r, normal;             ///< outward
+  double force = 0.0;                    ///< outward on the rod; >= 0 where the contact holds
+  double gap_curvature = 0.0;            ///< g'' at a touch, >= 0
 };
 
 struct Profile {
   std::vector<Piece> pieces;      ///< in the order of the chain's links
   std::vector<Contact> contacts;  ///< in the order of the chain's joints
+  obstacle::Set obstacles;
+  double unit_length = 1.0;  ///< see RodKind
 
   double begin() const { return pieces.front().s(0); }
   double end() const { return pieces.back().s(pieces.back().s.size() - 1); }
@@ -52,8 +59,5 @@ double total_contact_force(const Profile& profile, const Topology& topology);
 /// The same without sampling free arcs.
 double total_contact_force(const Chain& chain, const Topology& topology, const RodKind& rod,
                            const VectorXd& x, const Loads& loads);
-
-/// Outward gap sqrt(x² + y²) − 1.
-double gap(const Eigen::Vector3d& r);
 
 }  // namespace windlass::chain

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "windlass/chain/chain.hpp"
+#include "windlass/obstacle/cylinder.hpp"
+#include "windlass/rod/line_contact.hpp"
 
 /// Contact topologies and the chains built from them.
 namespace windlass::chain {
@@ -16,15 +18,20 @@ enum class Stretch { line, gap, tail };
 ///
 /// Of a half chain, symmetric under the half-turn, the stretches from s = 0 outward: the first spans both halves, unless
 /// `mid_touch`: the rod then touches at s = 0. A full chain is the whole rod from s = −L/2, and knows no mid-point.
+///
+/// Contacts name their obstacle: `on` has one entry a joint (a line's joints lie on the line's), its place in
+/// RodKind::obstacles. Where it is empty all lie on the first.
 struct Topology {
   std::vector<Stretch> stretches;
   bool half = true;
   bool mid_touch = false;
+  std::vector<int> on = {};
 
-  /// Whole rod, e.g. "tail touch gap line gap touch tail".
+  int obstacle(int joint) const { return on.empty() ? 0 : on[joint]; }
+  /// Whole rod, e.g. "tail touch gap line gap touch tail"; a contact on the second obstacle reads "touch:2".
   std::string text() const;
   bool contact() const;
-  bool operator==(const Topology&) const = default;
+  bool operator==(const Topology& other) const;
 };
 
 /// The whole rod of a half chain.
@@ -47,6 +54,10 @@ struct RodKind {
   Eigen::Vector3d stiffness = {1.0, 1.0, 2.0 / 3.0};
   Eigen::Vector3d natural = Eigen::Vector3d::Zero();  ///< (0, −κ̂, τ̂), κ̂ > 0 bends the way round the cylinder
   double natural_curvature() const { return -natural(1); }
+  obstacle::Set obstacles{{obstacle::unit_cylinder()}};
+  /// Natural unit of lengths along the rod, which thresholds are relative to: ρ, or a twentieth of a free rod.
+  double unit_length = 1.0;
+  rod::Material material() const { return {bending_stiffness, stiffness, natural}; }
   bool clamped() const { return left == EndKind::clamped || right == EndKind::clamped; }
   bool isotropic_straight() const { return stiffness(0) == stiffness(1) && natural.isZero(); }
 };

@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "windlass/bvp/arc.hpp"
+#include "windlass/obstacle/surface.hpp"
 
 /// Joints: the places where arcs meet (contacts, ends, the symmetry point).
 ///
-/// A joint owns a few coordinates w (for a touch: place on the cylinder and frame). It tells each neighbouring arc
+/// A joint owns a few coordinates w (for a touch: place on its obstacle and frame). It tells each neighbouring arc
 /// its end configuration q(w) and position X(w). Balance of force and moment at the joint is then stationarity of
 /// the chain's Lagrangian with respect to w; where the joint sits along the rod (arclength s, unknown for contacts)
 /// is fixed by a location condition: tangency at a touch, continuous curvature at the edge of a line contact.
@@ -57,8 +58,7 @@ class Joint {
   virtual int ambient() const = 0;                ///< stored coordinates
   virtual int tangent() const = 0;                ///< degrees of freedom
   virtual bool locates() const { return false; }  ///< is the arclength of this joint unknown?
-  /// Contacts: change of the place round the cylinder, the first coordinate, with the arclength, da/ds, as the rod slides
-  /// along itself.
+  /// Contacts: change of the first coordinate on the obstacle with the arclength, as the rod slides along itself.
   virtual double slide(const double* w) const { return (void)w, 1.0; }
 
   virtual Attachment attach(Side side, const double* w, const Loads& loads) const = 0;
@@ -104,14 +104,20 @@ class Joint {
     return (void)w, (void)turn, (void)spin, SmallVector::Zero(tangent());
   }
 
+  /// Degrees of freedom of the equilibrium equations that the rod itself does not have: variations leave them out.
+  virtual std::vector<int> fixed_in_variations() const { return {}; }
+  /// How far an end posed without its clamp has turned out of it [rad]: zero at an equilibrium; see FreeRodEnd.
+  virtual double out_of_clamp(const double* w) const { return (void)w, 0.0; }
+
   virtual void retract(const double* w, const double* dw, double* out) const = 0;
 
   /// Coordinates of this joint when the rod there is as given: a guess.
   virtual void adopt(const Place& place, double* w) const = 0;
 
-  /// Place on the cylinder: angle from the south pole [rad] and height [ρ]; meaningful for contacts.
-  virtual double angle(const double* w) const { return (void)w, 0.0; }
-  virtual double height(const double* w) const { return (void)w, 0.0; }
+  /// Contacts: the obstacle, and the place there in the coordinates of its chart, which are the joint's first.
+  virtual const obstacle::Surface* surface() const { return nullptr; }
+  virtual Eigen::Vector2d on_surface(const double* w) const { return (void)w, Eigen::Vector2d::Zero(); }
+  obstacle::Chart chart(const double* w) const { return surface()->chart(on_surface(w)); }
 };
 
 }  // namespace windlass::contact

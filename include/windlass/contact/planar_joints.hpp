@@ -3,11 +3,12 @@
 #include <cmath>
 
 #include "windlass/contact/joint.hpp"
+#include "windlass/obstacle/cylinder.hpp"
 
 /// Joints of the planar elastica round the unit circle.
 ///
-/// Configuration θ; position (x, y) on free arcs, the angle a on
-/// a line contact. Contact place: X(a) = (sin a, −cos a), outward normal N(a) = X(a).
+/// Configuration θ; position (x, y) on free arcs, the angle a on a line contact. Contacts lie on the section z = 0 of
+/// obstacle::Cylinder.
 namespace windlass::contact::planar {
 
 /// Adds vector-space retraction to joints without rotations.
@@ -30,7 +31,8 @@ class Touch final : public VectorJoint {
   void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
                  SmallMatrix& out) const override;
   Location location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const override;
-  double angle(const double* w) const override { return w[0]; }
+  const obstacle::Surface* surface() const override { return obstacle::unit_cylinder().get(); }
+  Eigen::Vector2d on_surface(const double* w) const override { return {w[0], 0.0}; }
   double slide(const double* w) const override { return std::cos(w[0] - w[1]); }
   void adopt(const Place& place, double* w) const override { w[0] = place.angle, w[1] = place.heading; }
 };
@@ -48,7 +50,8 @@ class Edge final : public VectorJoint {
   void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
                  SmallMatrix& out) const override;
   Location location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const override;
-  double angle(const double* w) const override { return w[0]; }
+  const obstacle::Surface* surface() const override { return obstacle::unit_cylinder().get(); }
+  Eigen::Vector2d on_surface(const double* w) const override { return {w[0], 0.0}; }
   void adopt(const Place& place, double* w) const override { w[0] = place.angle; }
 
  private:

@@ -1,22 +1,31 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 
 #include "windlass/contact/joint.hpp"
+#include "windlass/obstacle/cylinder.hpp"
 #include "windlass/rod/quaternion.hpp"
 
-/// Joints of the Kirchhoff rod round the unit cylinder. Free arcs: unit quaternion q and position r ∈ R³; line
-/// contacts: (ψ, χ) and (a, z), see rod::SurfaceDensity. X(a, z) = (sin a, −cos a, z), N(a) = (sin a, −cos a, 0).
+/// Joints of the Kirchhoff rod. Free arcs: unit quaternion q and position r ∈ R³; line contacts: (ψ, χ), inclination and
+/// twist in the frame of the obstacle's chart (rod/line_contact.hpp), and the place u there. Contacts have the coordinates
+/// u = (u₀, u₁) of their obstacle's chart first; on the cylinder those are angle and height.
 namespace windlass::contact::spatial {
 
-/// Frame of a rod lying on the cylinder: Rz(a) · Q₀ · R₁(ψ) · R₃(χ), with d1 = N and d3 = e_x at a = ψ = χ = 0.
+using obstacle::SurfacePointer;
+
+/// Frame of a rod lying on an obstacle: base · R₁(ψ) · R₃(χ), with d1 = N and d3 along u₀ at ψ = χ = 0.
+/// @param base  obstacle::Surface::base_frame
+rod::Quaternion surface_frame(const rod::Quaternion& base, double psi, double chi);
+/// The same on the cylinder; with ψ = χ = 0 the frame of a flat rod whose tangent makes the angle a with e_x.
 rod::Quaternion surface_frame(double a, double psi, double chi);
 
-/// Increments v (half rotation vectors in the body frame) per unit a, ψ, χ: columns of a 3×3 matrix.
-Eigen::Matrix3d surface_spins(double psi, double chi);
+/// Increments v (half rotation vectors in the body frame) per unit u₀, ψ, χ: columns of a 3×3 matrix.
+/// @param curvature  along u₀
+Eigen::Matrix3d surface_spins(double curvature, double psi, double chi);
 
-/// Angle, inclination and twist (a mod 2π) of a frame whose tangent is normal to N(a).
-Eigen::Vector3d surface_coordinates(const rod::Quaternion& q, double a);
+/// Inclination and twist (mod 2π) of a frame whose tangent is normal to N.
+Eigen::Vector2d surface_coordinates(const rod::Quaternion& q, const rod::Quaternion& base);
 
 class VectorJoint : public Joint {
  public:
@@ -26,10 +35,11 @@ class VectorJoint : public Joint {
   }
 };
 
-/// Isolated touch: w = (a, z, q), 5 degrees of freedom, arclength unknown.
+/// Isolated touch: w = (u, q), 5 degrees of freedom, arclength unknown.
 /// Equations 6: tangential forces (2), moments (3), tangency d₃·N = 0.
 class Touch final : public Joint {
  public:
+  explicit Touch(SurfacePointer surface = obstacle::unit_cylinder()) : surface_(std::move(surface)) {}
   JointKind kind() const override { return JointKind::touch; }
   int ambient() const override { return 6; }
   int tangent() const override { return 5; }
@@ -38,23 +48,33 @@ class Touch final : public Joint {
   int height_coordinate() const override { return 1; }
   int spin_coordinate() const override { return 4; }
   bool locates() const override { return true; }
-  double slide(const double* w) const override { return location(w, {}, {}).by_w(0); }
+  double slide(const double* w) const override;
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
                  SmallMatrix& out) const override;
   Location location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const override;
   void retract(const double* w, const double* dw, double* out) const override;
-  double angle(const double* w) const override { return w[0]; }
-  double height(const double* w) const override { return w[1]; }
+  const obstacle::Surface* surface() const override { return surface_.get(); }
+  Eigen::Vector2d on_surface(const double* w) const override { return {w[0], w[1]}; }
   void adopt(const Place& place, double* w) const override;
+
+ private:
+  SurfacePointer surface_;
 };
 
-/// Edge of a line contact: w = (a, z, ψ, χ), 4 degrees of freedom, arclength unknown.
-/// Equations 5: forces along the surface (2), moments about N and d₃ (2), m·D₂ = −B cos²ψ (normal curvature of the
-/// free arc equal to the surface's).
+/// Edge of a line contact: w = (u, ψ, χ), 4 degrees of freedom, arclength unknown.
+/// Equations 5: forces along the surface (2), moments about N and d₃ (2), and the normal curvature of the free arc equal to
+/// the surface's,  B (u₁ sin χ + u₂ cos χ) = −B κ cos²ψ  with the strains u = K⁻¹ m + û.
 class Edge final : public VectorJoint {
  public:
-  Edge(Side line_side, double bending_stiffness) : line_(line_side), stiffness_(bending_stiffness) {}
+  Edge(Side line_side, double bending_stiffness, SurfacePointer surface = obstacle::unit_cylinder(),
+       const Eigen::Vector3d& compliance = Eigen::Vector3d::Ones(),
+       const Eigen::Vector3d& natural = Eigen::Vector3d::Zero())
+      : line_(line_side),
+        stiffness_(bending_stiffness),
+        compliance_(compliance),
+        natural_(bending_stiffness * natural),
+        surface_(std::move(surface)) {}
   JointKind kind() const override { return JointKind::edge; }
   int ambient() const override { return 4; }
   int tangent() const override { return 4; }
@@ -68,19 +88,24 @@ class Edge final : public VectorJoint {
                  SmallMatrix& out) const override;
   Location location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const override;
   void retract(const double* w, const double* dw, double* out) const override;
-  double angle(const double* w) const override { return w[0]; }
-  double height(const double* w) const override { return w[1]; }
+  const obstacle::Surface* surface() const override { return surface_.get(); }
+  Eigen::Vector2d on_surface(const double* w) const override { return {w[0], w[1]}; }
   void adopt(const Place& place, double* w) const override;
   static double& twist(double* w) { return w[3]; }
 
  private:
   Side line_;
-  double stiffness_;
+  double stiffness_;            ///< B
+  Eigen::Vector3d compliance_;  ///< B K⁻¹
+  Eigen::Vector3d natural_;     ///< B û
+  SurfacePointer surface_;
 };
 
-/// A section of a line contact, where the half-turn of a half chain meets it: w = (a, z, ψ, χ).
+/// A section of a line contact, where the half-turn of a half chain meets it: w = (u, ψ, χ).
 class SurfaceSection final : public VectorJoint {
  public:
+  explicit SurfaceSection(SurfacePointer surface = obstacle::unit_cylinder())
+      : surface_(std::move(surface)) {}
   JointKind kind() const override { return JointKind::section; }
   int tangent() const override { return 4; }
   std::vector<int> even() const override { return {2}; }
@@ -89,6 +114,10 @@ class SurfaceSection final : public VectorJoint {
   std::vector<int> out_of_plane() const override { return {1, 2, 3}; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   void adopt(const Place& place, double* w) const override;
+  const obstacle::Surface* surface() const override { return surface_.get(); }
+
+ private:
+  SurfacePointer surface_;
 };
 
 /// A section of a free arc, likewise: w = (r, q), 6 degrees of freedom. On the half-turn's axis d₁ = −e_y: the rod may turn
@@ -128,14 +157,22 @@ class End final : public Joint {
 /// End of a free rod along e_x, y = z = 0; see EndKind. x is imposed by the shortening, x = ±(1 − shortening)·half_length, or
 /// the first coordinate under the dead thrust.
 ///  - clamped: frame turned by ±twist/2 about e_x;
-///  - pinned: free of moment, the frame turns as it likes: coordinates (q).
+///  - pinned: free of moment, the frame turns as it likes: coordinates (q);
+///  - clamped beside a straight line contact along e_x, with a hinge for its clamp: a turn about `hinge` is one more
+///    coordinate. H = m²/2B + n·d₃ is the same at both ends of the flat arc between, and so is n·d₃: the moment vanishes at
+///    the clamp as it does at the edge. With the clamp imposed the equations have a double root there (the arc is a whole
+///    wave, P ℓ² = 4π² B, about to buckle by itself); with its moment, a simple one, and the turn is zero by H.
 class FreeRodEnd final : public Joint {
  public:
-  FreeRodEnd(Side arc_side, bool under_thrust, bool pinned)
-      : arc_(arc_side), under_thrust_(under_thrust), pinned_(pinned) {}
+  FreeRodEnd(Side arc_side, bool under_thrust, bool pinned, std::optional<Eigen::Vector3d> hinge = {})
+      : arc_(arc_side), under_thrust_(under_thrust), pinned_(pinned), hinge_(std::move(hinge)) {}
   JointKind kind() const override { return JointKind::end; }
-  int ambient() const override { return under_thrust_ + (pinned_ ? 4 : 0); }
-  int tangent() const override { return under_thrust_ + (pinned_ ? 3 : 0); }
+  int ambient() const override { return under_thrust_ + (pinned_ ? 4 : hinge_ ? 1 : 0); }
+  int tangent() const override { return under_thrust_ + (pinned_ ? 3 : hinge_ ? 1 : 0); }
+  std::vector<int> fixed_in_variations() const override {
+    return hinge_ ? std::vector<int>{under_thrust_} : std::vector<int>{};
+  }
+  double out_of_clamp(const double* w) const override { return hinge_ ? w[under_thrust_] : 0.0; }
   int spin_coordinate() const override { return pinned_ ? under_thrust_ + 2 : -1; }
   std::vector<int> out_of_plane() const override {
     return pinned_ ? std::vector<int>{under_thrust_, under_thrust_ + 2} : std::vector<int>{};
@@ -149,6 +186,7 @@ class FreeRodEnd final : public Joint {
  private:
   Side arc_;
   bool under_thrust_, pinned_;
+  std::optional<Eigen::Vector3d> hinge_;  ///< its axis
 };
 
 }  // namespace windlass::contact::spatial

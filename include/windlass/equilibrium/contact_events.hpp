@@ -17,7 +17,8 @@
 /// line carries | a touch in its place; the line |
 /// | force | point force at a touch or an edge | the touch is lost (an edge: no successor is known) |
 /// | curvature | g'' at a touch | the touch flattens into a line, or comes apart into two |
-/// | graze | least gap inside a free arc | a new touch |
+/// | graze | least gap inside a free arc, of each obstacle | a new touch |
+/// | buckling | margin of a line without pressure against its own buckling | it bows off the obstacle between two touches |
 ///
 /// **A gap that has just opened is carried by its line.** Where the pressure p of a line contact is negative, the rod lifts: a
 /// beam under p₀ + a s²/2 over a gap of half-length h, h² = −10 p₀/a, to the height a h⁶/720B, with forces a h³/15 at the gap's
@@ -28,7 +29,7 @@
 namespace windlass::equilibrium {
 
 /// Forces of an arc of length ℓ carry rounding errors like 1/ℓ: it gives way to the topology without it this early, and
-/// the event itself is located there.
+/// the event itself is located there. In units of Profile::unit_length.
 inline constexpr double least_length = 1e-3;
 /// The curvature of two touches falls with the square of the gap between them; here it still is a hundred times its rounding.
 inline constexpr double least_between_touches = 5e-3;
@@ -38,12 +39,13 @@ inline constexpr double least_between_touches = 5e-3;
 inline constexpr double carried_inside = 0.036, carried_beside_touch = 0.018;
 
 struct ContactEvent {
-  enum class Kind { pressure, suction, length, force, curvature, graze };
+  enum class Kind { pressure, suction, length, force, curvature, graze, buckling };
   Kind kind = Kind::force;
-  int place = 0;  ///< link (pressure, suction, length, graze) or joint (force, curvature)
+  int place = 0;  ///< link (pressure, suction, length, graze, buckling) or joint (force, curvature)
   double value = 0.0;
   double s = 0.0;               ///< where along the rod
   double from = 0.0, to = 0.0;  ///< pressure, suction: the stretch of negative pressure
+  int obstacle = 0;             ///< graze: the one that the rod comes near
   bool imminent = false;        ///< length of a gap so short that its two touches can hardly be told apart
   bool passes = false;          ///< the same equations hold on both sides
   bool redrawn = false;         ///< the same state follows, a gap as an arc or carried by its line
@@ -59,6 +61,7 @@ struct Successor {
   std::vector<double> s;      ///< one a joint of the new chain
   std::vector<int> source;    ///< link of the old chain whose mesh each new arc inherits
   std::vector<int> opened;    ///< links that have no length at the event itself
+  int bowed = -1;             ///< link that has no bow at the event itself, −1: none
   bool nothing_left = false;  ///< no contact remains: the branch ends
 };
 

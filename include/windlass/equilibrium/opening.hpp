@@ -18,4 +18,9 @@ void settle_shape(RodProblem& problem, Vector& x, Vector& p, const std::vector<i
 /// @returns whether Newton converged; x and p are the solution then, and unspecified otherwise
 bool solve_at_length(RodProblem& problem, Vector& x, Vector& p, int link, double length);
 
+/// Lets a straight link bow off its obstacle, which it does at its buckling load: solves, p(0) free, for a state with a
+/// slight bow. A link that is straight solves the same equations at any load, so the bow is prescribed.
+/// @returns whether Newton converged
+bool enter_bowed(RodProblem& problem, Vector& x, Vector& p, int link);
+
 }  // namespace windlass::equilibrium

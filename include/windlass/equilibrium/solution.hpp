@@ -32,6 +32,7 @@ struct ArcRecord {
   std::string role;                   ///< "tail", "gap" or "line"
   double s_begin = 0.0, s_end = 0.0;  ///< material arclength, s = 0 at the mid-point [ρ]
   double force = 0.0;                 ///< line: ∫ p ds [EI/ρ²]; free: 0
+  int obstacle = -1;                  ///< line: the obstacle it lies on, its place in the scene
   Eigen::VectorXd s;
   Eigen::Matrix3Xd r;
   Eigen::Matrix4Xd q;
@@ -47,6 +48,8 @@ struct JointRecord {
   double z = 0.0;                               ///< [ρ]
   double force = 0.0;                           ///< size of the contact point force, >= 0 [EI/ρ²]
   Eigen::Vector3d r = Eigen::Vector3d::Zero();  ///< position [ρ]
+  int obstacle = -1;                            ///< of a contact, its place in the scene
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of a contact: the direction of its force on the rod
   /// Force along the circumference that holds the rod against sliding along itself [EI/ρ²], at the outermost contacts: zero
   /// to rounding at an equilibrium. What is not is no equilibrium, and the certificate fails.
   double holding = 0.0;

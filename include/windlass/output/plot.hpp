@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "windlass/obstacle/surface.hpp"
 #include "windlass/output/run_folder.hpp"
 
 namespace windlass::output {
@@ -15,6 +16,7 @@ struct PlotOptions {
       points;  ///< rods to draw, by label or BRANCH-POINT; empty: special points and branch ends
   std::size_t most_rods = 12;                       ///< of the automatic choice
   std::optional<scene::Units> units;                ///< adds axes in newtons and grams to the diagram
+  obstacle::Set obstacles;                          ///< drawn beside struts
   std::vector<std::pair<double, double>> measured;  ///< dimensionless (T, R_tot) laid over the diagram
   std::filesystem::path folder;                     ///< where pictures go; empty: RUN/plots
 };

@@ -38,7 +38,7 @@ struct PointColumns {
     Texts label, model, model_reason, topology, chain;
   } points;
   struct Arcs {
-    Integers sample_begin, sample_count;
+    Integers sample_begin, sample_count, obstacle;
     Reals s_begin, s_end, force;
     Texts kind, role;
   } arcs;
@@ -46,7 +46,8 @@ struct PointColumns {
     Reals s, r, q, n, m, p;
   } samples;
   struct Joints {
-    Reals s, angle, z, force, holding, r;
+    Integers obstacle;
+    Reals s, angle, z, force, holding, r, normal;
     Texts kind;
   } joints;
   struct Modes {

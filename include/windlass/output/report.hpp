@@ -3,11 +3,13 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "windlass/obstacle/surface.hpp"
 #include "windlass/output/run_folder.hpp"
 
 namespace windlass::output {
 
 struct ReportOptions {
+  obstacle::Set obstacles;            ///< drawn beside struts
   std::optional<scene::Units> units;  ///< adds newtons and grams to the quantities on offer
   std::size_t most_rods = 600;        ///< rods stored in the page; of longer runs every k-th ordinary point
   std::filesystem::path file;         ///< empty: RUN/report.html

@@ -14,7 +14,7 @@
 /// the help text all come from it.
 namespace windlass::scene {
 
-enum class ValueKind { number, integer, text };
+enum class ValueKind { number, integer, text, direction };
 
 /// Interval of allowed numbers, in the key's own dimension. Bounds of dimensional keys are 0 or infinite, so they
 /// hold in every system of units.
@@ -53,6 +53,9 @@ struct Key {
 };
 
 std::span<const Key> keys();
+
+/// Keys of each [[wall]]; a scene has any number of them, so they are no parameters and cannot be set one by one.
+std::span<const Key> wall_keys();
 
 /// Null if there is no such key.
 const Key* find_key(std::string_view name);

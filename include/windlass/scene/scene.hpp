@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 /// What the user asks for, as plain numbers: the outcome of reading a scene file.
 ///
@@ -24,6 +26,19 @@ struct Rod {
   bool infinite() const;
 
   bool operator==(const Rod&) const = default;
+};
+
+/// A plane wall: the centre line stays where n·r <= distance, n the unit vector along `normal`.
+struct Wall {
+  std::array<double, 3> normal = {0.0, 1.0, 0.0};
+  double distance = 0.0;  ///< [ρ]
+
+  /// How far a straight strut of this length, along e_x about the origin, reaches towards it.
+  double reach_of_straight(double length) const;
+  /// Is it its own image under the half-turn about e_y?
+  bool keeps_half_turn() const { return normal[0] == 0.0 && normal[2] == 0.0; }
+
+  bool operator==(const Wall&) const = default;
 };
 
 struct Load {
@@ -87,6 +102,7 @@ struct Scene {
   bool has_cylinder = false;       ///< radius of the centreline's cylinder is 1 when true
   double rod_radius = 0.0;         ///< r [ρ]; 0 unless physical or given
   std::optional<double> friction;  ///< mu
+  std::vector<Wall> walls;         ///< struts only, in the order of the file
   Load load;
   Ends ends;
   Model model;
@@ -98,7 +114,12 @@ struct Scene {
                               ///< reading it again gives an equal Scene
 
   /// Is a half chain, symmetric under the half-turn, admitted?
-  bool half_turn() const { return model.symmetry != Symmetry::none && ends.left_kind() == ends.right_kind(); }
+  bool half_turn() const {
+    return model.symmetry != Symmetry::none && ends.left_kind() == ends.right_kind() &&
+           obstacles_keep_half_turn();
+  }
+  bool obstacles_keep_half_turn() const;
+  bool has_obstacles() const { return has_cylinder || !walls.empty(); }
 
   bool operator==(const Scene&) const = default;
 };

@@ -5,6 +5,7 @@
 
 #include "windlass/equilibrium/solution.hpp"
 #include "windlass/scene/scene.hpp"
+#include "windlass/verify/shape.hpp"
 
 namespace windlass::verify {
 
@@ -39,15 +40,24 @@ Eigen::Vector3d tangent(const Section& section);     ///< d3
 /// solver uses, so it is an independent statement of the same mechanics.
 double surface_pressure(const Section& section, double bending_stiffness);
 
+/// Contact force per length that keeps the centreline on a plane with the normal N, for any section and natural shape.
+///
+/// The constraint N·t = 0 holds along the rod, and so does its third derivative, with t = R e₃ and R' = R [u]×. In the body
+/// frame, with m' = −u × m + n × e₃, n' = −u × n − p N and u = K⁻¹ m + û, p enters through u'' alone, linearly.
+double plane_pressure(const Section& section, const Stiffness& stiffness, const Eigen::Vector3d& normal);
+
 /// Integrates the balance laws along one arc with CVODE.
 ///
-/// free: r' = d3, q' = ½ q⊗(0,u), m' = n×d3, n constant. line: the same with n' = -p N and p = surface_pressure.
+/// free: r' = d3, q' = ½ q⊗(0,u), m' = n×d3, n constant. line: the same with n' = -p N and p = surface_pressure, or
+/// plane_pressure.
 /// Move-only owner of its CVODE memory.
 class RodFlow {
  public:
   /// @param tolerance  relative; the absolute one is a tenth of it
   /// @throws std::runtime_error when CVODE cannot be set up
-  RodFlow(const Stiffness& stiffness, equilibrium::ArcKind kind, double tolerance = 1e-12);
+  /// @param shape  of a line: what it lies on
+  RodFlow(const Stiffness& stiffness, equilibrium::ArcKind kind, double tolerance = 1e-12,
+          const Shape& shape = Shape::cylinder());
   RodFlow(RodFlow&&) noexcept;
   RodFlow& operator=(RodFlow&&) noexcept;
   ~RodFlow();
@@ -58,6 +68,7 @@ class RodFlow {
   Section advance(double s);
   /// ∫ p ds since the restart [EI/ρ²]
   double contact_force() const;
+  bool on_wall() const;
 
  private:
   struct Memory;

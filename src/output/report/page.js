@@ -166,6 +166,14 @@
     };
   }
 
+  /** Walls: a rectangle each. */
+  function sheetTraces() {
+    return (data.sheets || []).map((corners) => {
+      const [x, y, z] = [0, 1, 2].map((axis) => corners.map((corner) => corner[axis]));
+      return { type: "mesh3d", x, y, z, i: [0, 0], j: [1, 2], k: [2, 3], color: "#c9ccd6", opacity: 0.45, hoverinfo: "skip" };
+    });
+  }
+
   function rodTraces(rod) {
     const largest = Math.max(1e-12, ...rod.arcs.flatMap((arc) => arc.p || []));
     let bar = false;
@@ -184,17 +192,17 @@
   function forceTraces(rod) {
     const forces = rod.forces.filter((force) => force.f > 0);
     if (forces.length === 0) return [];
-    const largest = Math.max(...forces.map((force) => force.f));
+    const largest = Math.max(...forces.map((force) => force.f)), unit = capstan ? 1 : 0.15;
     const shafts = { x: [], y: [], z: [] }, heads = { x: [], y: [], z: [], u: [], v: [], w: [] }, texts = [];
     forces.forEach((force) => {
-      const length = Math.max(0.12, (0.8 * force.f) / largest), tip = force.r.map((c, i) => c + length * force.d[i]);
+      const length = unit * Math.max(0.12, (0.8 * force.f) / largest), tip = force.r.map((c, i) => c + length * force.d[i]);
       ["x", "y", "z"].forEach((c, i) => { shafts[c].push(force.r[i], tip[i], null); heads[c].push(tip[i]); });
       ["u", "v", "w"].forEach((c, i) => heads[c].push(force.d[i]));
       texts.push(`point force f = ${short(force.f)} at s = ${short(force.s)}`);
     });
     return [
       { type: "scatter3d", mode: "lines", ...shafts, line: { color: "#c00000", width: 6 }, hoverinfo: "skip", showlegend: false },
-      { type: "cone", ...heads, sizemode: "raw", sizeref: 0.3, anchor: "tip", showscale: false, text: texts, hoverinfo: "text",
+      { type: "cone", ...heads, sizemode: "raw", sizeref: 0.3 * unit, anchor: "tip", showscale: false, text: texts, hoverinfo: "text",
         colorscale: [[0, "#c00000"], [1, "#c00000"]] },
     ];
   }
@@ -210,7 +218,7 @@
 
   function drawRod(rod) {
     const axis = (text) => ({ title: { text }, backgroundcolor: "#fff", gridcolor: "#eee", zerolinecolor: "#ddd", nticks: 5 });
-    const traces = [modeTrace(rod), ...(capstan ? [cylinderTrace(rod)] : []), ...rodTraces(rod), ...forceTraces(rod)];
+    const traces = [modeTrace(rod), ...(capstan ? [cylinderTrace(rod)] : []), ...sheetTraces(), ...rodTraces(rod), ...forceTraces(rod)];
     Plotly.react("rod", traces, {
       font, margin: { l: 0, r: 0, t: 0, b: 0 }, uirevision: "rod",
       scene: { aspectmode: "data", xaxis: axis("x"), yaxis: axis("y"), zaxis: axis("z"),

@@ -6,6 +6,7 @@
 
 #include "windlass/contact/planar_joints.hpp"
 #include "windlass/contact/spatial_joints.hpp"
+#include "windlass/obstacle/plane.hpp"
 
 namespace {
 
@@ -19,6 +20,14 @@ using Eigen::VectorXd;
 
 constexpr double h = 1e-5;      // central differences: h² and 1e-16/h,
 constexpr double bound = 1e-9;  // entries of order one
+
+/// A wall that is nothing special, and a rod on it whose section and natural shape are neither.
+const obstacle::SurfacePointer& wall() {
+  static const obstacle::SurfacePointer plane =
+      std::make_shared<obstacle::Plane>(Eigen::Vector3d(0.3, -0.5, 0.8), 0.7);
+  return plane;
+}
+contact::spatial::Edge wall_edge(Side line) { return {line, 1.2, wall(), {0.8, 1.0, 1.9}, {0.2, -0.3, 0.4}}; }
 
 contact::Loads some_loads() {
   contact::Loads loads;
@@ -123,6 +132,9 @@ BOOST_AUTO_TEST_CASE(attachments_of_spatial_joints) {
   check("edge of a line to the right", Edge(Side::right, 1.2), {Side::left, Side::right});
   check("section of a line", SurfaceSection(), {Side::left, Side::right});
   check("section of a free arc", FreeSection(), {Side::left, Side::right});
+  check("touch of a wall", Touch(wall()), {Side::left, Side::right});
+  check("edge on a wall", wall_edge(Side::left), {Side::left, Side::right});
+  check("section of a line on a wall", SurfaceSection(wall()), {Side::left, Side::right});
   check("end", End(Side::left, false), {Side::left});
   for (const bool under_thrust : {false, true})
     for (const bool pinned : {false, true})
@@ -135,12 +147,18 @@ BOOST_AUTO_TEST_CASE(location_conditions) {
   check_location("spatial touch", contact::spatial::Touch(), 3);
   check_location("spatial edge", contact::spatial::Edge(Side::left, 1.2), 3);
   check_location("spatial edge of a line to the right", contact::spatial::Edge(Side::right, 1.2), 3);
+  check_location("touch of a wall", contact::spatial::Touch(wall()), 3);
+  check_location("edge on a wall", wall_edge(Side::left), 3);
+  check_location("edge of a line to the right on a wall", wall_edge(Side::right), 3);
 }
 
 BOOST_AUTO_TEST_CASE(surface_frames_and_coordinates_are_inverse) {
-  const Eigen::Vector3d at =
-      contact::spatial::surface_coordinates(contact::spatial::surface_frame(0.4, 0.3, -0.8), 0.4);
-  BOOST_TEST((at - Eigen::Vector3d(0.4, 0.3, -0.8)).norm() < 1e-14);
+  for (const obstacle::SurfacePointer& surface : {obstacle::unit_cylinder(), wall()}) {
+    const rod::Quaternion base = surface->base_frame({0.4, 0.1});
+    const Eigen::Vector2d at =
+        contact::spatial::surface_coordinates(contact::spatial::surface_frame(base, 0.3, -0.8), base);
+    BOOST_TEST((at - Eigen::Vector2d(0.3, -0.8)).norm() < 1e-14);
+  }
 }
 
 // Space turns by ε about e_x, each section by σ ε about its tangent.

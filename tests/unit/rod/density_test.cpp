@@ -3,6 +3,7 @@
 
 #include "windlass/rod/kirchhoff_density.hpp"
 #include "windlass/rod/planar_density.hpp"
+#include "windlass/rod/plane_density.hpp"
 #include "windlass/rod/surface_density.hpp"
 
 namespace {
@@ -50,6 +51,7 @@ BOOST_AUTO_TEST_SUITE(densities)
 
 BOOST_AUTO_TEST_CASE(planar) { check(rod::PlanarDensity{1.3}); }
 BOOST_AUTO_TEST_CASE(surface) { check(rod::SurfaceDensity{1.2, 0.7}); }
+BOOST_AUTO_TEST_CASE(plane) { check(rod::PlaneDensity{{1.0, 1.4, 0.6}, {0.2, -0.1, 0.3}}); }
 BOOST_AUTO_TEST_CASE(kirchhoff) { check(rod::KirchhoffDensity{{1.0, 1.4, 0.6}, {0.2, -0.1, 0.3}}); }
 
 BOOST_AUTO_TEST_CASE(kirchhoff_in_the_plane_is_the_planar_density) {
@@ -70,6 +72,28 @@ BOOST_AUTO_TEST_CASE(kirchhoff_in_the_plane_is_the_planar_density) {
                boost::test_tools::tolerance(1e-13));
     BOOST_TEST((d.head<2>() - d2).norm() < 1e-14);
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_rod_on_a_plane_is_that_of_the_kirchhoff_density) {
+  // Frame Rz(ψ) Q₀ R₃(χ) on the plane z = 0 with N = e_z, d₃ = e_x; its slope by ψ' and χ'.
+  const Eigen::Vector3d stiffness(1.0, 1.4, 0.6), natural(0.2, -0.1, 0.3);
+  const rod::PlaneDensity plane{stiffness, natural};
+  const rod::KirchhoffDensity spatial{stiffness, natural};
+  const rod::Quaternion base(0.5, -0.5, -0.5, -0.5);
+  const Eigen::Matrix3d d = rod::directors(base);
+  BOOST_TEST_REQUIRE((d.col(2).squaredNorm() - 1.0) < 1e-15);
+  const Eigen::Vector3d normal = d.col(0);
+  const auto frame = [&](double psi, double chi) {
+    return rod::product(rod::product(rod::rotation(normal, psi), base),
+                        rod::rotation(Eigen::Vector3d::UnitZ(), chi));
+  };
+  const Eigen::Vector2d q(0.4, 0.7), slope(0.9, -0.3);
+  constexpr double h = 1e-6;  // of differences: h², 1e-16/h
+  const rod::Quaternion rate =
+      (frame(q(0) + h * slope(0), q(1) + h * slope(1)) - frame(q(0) - h * slope(0), q(1) - h * slope(1))) /
+      (2 * h);
+  BOOST_TEST(plane.elastic(q, slope) == spatial.elastic(frame(q(0), q(1)), rate),
+             boost::test_tools::tolerance(1e-9));
 }
 
 BOOST_AUTO_TEST_CASE(a_helix_on_the_cylinder_is_that_of_the_kirchhoff_density) {

@@ -119,10 +119,6 @@ BOOST_AUTO_TEST_CASE(keys_to_come) {
     expect_named(message, key, set);
     BOOST_TEST(message.find("not built yet") != std::string::npos, message);
   }
-  const std::string wall =
-      refusal(folder, capstan + "[[wall]]\nnormal = [0.0, 1.0, 0.0]\ndistance = 0.1\n", "title=a");
-  BOOST_TEST(wall.find("wall") != std::string::npos);
-  BOOST_TEST((wall.empty() || wall.find("not built yet") != std::string::npos), wall);
   // What holds without them may be said.
   for (const char* set :
        {"rod.extensible=false", "rod.axial_stiffness=inf", "rod.self_contact=false", "cylinder.sliding=none",
