@@ -68,7 +68,7 @@ bool StoppingRule::last(double length, double residual, double state_size, bool 
   // What rounding may leave where the state has large entries; taken only once corrections no longer shrink.
   const double rounding = tolerance * std::max(1.0, state_size);
   // Where F is all rounding, corrections are what nearly singular equations make of it, and no other state is better.
-  constexpr double rounded_residual = 1e-2, visible = 1e-6;
+  constexpr double rounded_residual = 1e-3, visible = 1e-6;
   const bool exhausted = fresh && residual <= rounded_residual * allowed && length <= visible;
   bool stagnant = false;
   if (taken_ > 0) {
@@ -84,10 +84,13 @@ bool StoppingRule::last(double length, double residual, double state_size, bool 
   // Where corrections are this small twice, what is left of F is the rounding of its large terms (those of an arc
   // about to vanish, say).
   const bool rounded = taken_ > 0 && previous_ <= tolerance && length <= 0.1 * tolerance;
+  // What the last correction leaves of F goes on as before: a good part of what is allowed where they converge slowly.
+  constexpr double left = 0.1;
+  const double after = taken_ > 0 ? residual * std::min(1.0, residual / previous_residual_) : 0.0;
   ++taken_;
   previous_ = length;
   previous_residual_ = residual;
-  return small && (rounded || residual <= allowed);
+  return small && (rounded || exhausted || (residual <= allowed && after <= left * allowed));
 }
 
 namespace {

@@ -50,7 +50,6 @@ continuation::Options options_of(const scene::Scene& scene) {
   options.max_points = c.max_points;
   // Newton converges quadratically: the error left after an increment of 1e-9 is rounding.
   options.newton_tolerance = 1e-9;
-  options.residual_tolerance = 1e-9;
   return options;
 }
 

@@ -46,7 +46,6 @@ std::optional<continuation::Point> relocate(const scene::Scene& scene, const equ
     options.direction = side > 0.0 ? -1 : 1;
     options.target = at(0) - side * std::max(1.0, std::abs(at(0)));
     options.newton_tolerance = 1e-9;
-    options.residual_tolerance = 1e-9;
     continuation::Walker walker(problem, x, p, options);
     while (const auto point = walker.step())
       if (point->type == type && std::abs(point->p(0) - at(0)) < 1e-5 * std::max(1.0, std::abs(at(0))))
@@ -69,7 +68,6 @@ continuation::LocusOptions options_of(const LocusRequest& request, const continu
   const bool angle = request.second == "load.angle";
   continuation::LocusOptions options;
   options.options.newton_tolerance = 1e-9;
-  options.options.residual_tolerance = 1e-9;
   options.options.max_points = 1000;
   options.options.step_max = 0.5;
   options.options.lower = 0.05;  // below it rods of usual length have no tails left

@@ -23,7 +23,6 @@ Solution follow(scene::Scene scene, const Solution& stored, const std::string& k
     options.parameter_scale = std::clamp(std::abs(target - from), 0.2, 1e3);
     options.detect_branch_points = false;
     options.newton_tolerance = 1e-9;
-    options.residual_tolerance = 1e-9;
     options.max_points = 100;  // the target is near a stored point, or in the smooth regime of high tension
     continuation::Walker walker(problem, x, p, options);
     while (walker.step()) {

@@ -60,7 +60,6 @@ continuation::Options options_of(const Range& range) {
   options.upper = std::max(range.from, range.beyond);
   options.parameter_scale = std::clamp(0.2 * (options.upper - options.lower), 0.2, 1e3);
   options.newton_tolerance = 1e-9;
-  options.residual_tolerance = 1e-9;
   options.max_points = 600;
   return options;
 }
