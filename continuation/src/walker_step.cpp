@@ -107,12 +107,13 @@ bool Walker::find_specials(Segment& segment, const Sample& end, const Located* t
   std::vector<Located> found = std::move(crossings.points);
   std::move(breaking.begin(), breaking.end(), std::back_inserter(found));
   // Where an event function vanishes the equations it belongs to may become singular with it: the branch that crosses
-  // there is not of this problem's.
+  // there is not of this problem's. Nor is a count that changes in a bracket that reaches up to the event and was not narrowed.
   const double p = segment.parameter(end);
   if (at_event)
     std::erase_if(found, [&](const Located& l) {
       return std::abs(segment.parameter(l.sample) - p) <
-             1e-8 * std::max(options_.parameter_scale, std::abs(p));
+                 1e-8 * std::max(options_.parameter_scale, std::abs(p)) ||
+             (l.type == PointType::branch_point && !l.branch_point && l.hi >= end.s);
     });
   if (turn && crossings.fold && options_.detect_folds) {
     Located fold = *turn;

@@ -37,11 +37,7 @@ std::optional<continuation::Point> relocate(const scene::Scene& scene, const equ
     const continuation::Vector at = problem->parameters();
     continuation::Vector p = at, x = stored.restart.state;
     p(0) += side * std::max(1.0, std::abs(at(0)));
-    try {
-      if (problem->polish(x, p) < 0) continue;
-    } catch (const std::exception&) {
-      continue;
-    }
+    if (problem->polish(x, p) < 0) continue;
     continuation::Options options;
     options.direction = side > 0.0 ? -1 : 1;
     options.target = at(0) - side * std::max(1.0, std::abs(at(0)));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "windlass/equilibrium/opening.hpp"
+
 namespace windlass::equilibrium {
 
 namespace {
@@ -20,7 +22,8 @@ std::optional<double> value_at(RodProblem& problem, Vector& x, const Vector& p, 
 std::optional<double> event_precision(const RodProblem& problem, const Vector& x, const Vector& p,
                                       const std::string& event) {
   constexpr double safety = 2.0, difference = 1e-6, believable = 1e-4;
-  try {
+  std::optional<double> precision;
+  tried([&] {
     std::vector<chain::ArcMesh> meshes = problem.meshes();
     for (chain::ArcMesh& mesh : meshes) mesh.stages += mesh.stages > 0;  // formulas stay
     RodProblem finer(problem.scene_at(p), problem.spatial(), problem.topology(), meshes, problem.keys());
@@ -29,12 +32,12 @@ std::optional<double> event_precision(const RodProblem& problem, const Vector& x
     Vector beside = p;
     beside(0) += difference * std::max(1.0, std::abs(p(0)));
     const auto there = here ? value_at(finer, fine, beside, event) : std::nullopt;
-    if (!there || *there == *here) return std::nullopt;
+    if (!there || *there == *here) return false;
     const double distance = safety * std::abs(*here * (beside(0) - p(0)) / (*there - *here));
-    return distance < believable ? std::optional(distance) : std::nullopt;
-  } catch (const std::exception&) {  // a state at the edge of its domain
-    return std::nullopt;
-  }
+    if (distance < believable) precision = distance;
+    return true;
+  });
+  return precision;
 }
 
 }  // namespace windlass::equilibrium

@@ -62,14 +62,15 @@ double longest_part(const chain::Chain& chain, const Vector& x, const contact::L
   return part;
 }
 
-/// One Newton step, cut where an arc would lose more than half its length. @returns the largest uncut increment
+/// One Newton step, cut where an arc would lose more than half its length. @returns the largest uncut increment; infinity,
+/// and nothing is changed, where the increment is not finite
 double newton_step(RodProblem& problem, Vector& x, Vector& p, const Borders& borders, const Vector& goal,
                    bool moves_p) {
   const Eigen::Index size = problem.size(), count = borders.b.cols();
   problem.factor(x, p, borders.b, borders.c, MatrixXd::Zero(count, count));
   const Vector solution = problem.solve(-problem.residual(x, p), goal);
   const Vector dx = solution.head(size);
-  if (!dx.allFinite()) throw std::runtime_error("Newton's increment is not finite");
+  if (!solution.allFinite()) return HUGE_VAL;
   const double part = longest_part(problem.chain(), x, problem.loads(p), dx);
   x = problem.retract(x, part * dx);
   if (moves_p) p(0) += part * solution(size);
@@ -143,7 +144,8 @@ void settle_shape(RodProblem& problem, Vector& x, Vector& p, const std::vector<i
   const Borders borders = hold_edges(problem.chain(), opened);
   const Vector goal = Vector::Zero(borders.b.cols());
   for (int k = 0; k < 4; ++k)
-    if (newton_step(problem, x, p, borders, goal, false) < 1e-8) return;
+    if (const double step = newton_step(problem, x, p, borders, goal, false); step < 1e-8 || std::isinf(step))
+      return;
 }
 
 bool solve_at_length(RodProblem& problem, Vector& x, Vector& p, int link, double length) {
@@ -154,6 +156,7 @@ bool solve_at_length(RodProblem& problem, Vector& x, Vector& p, int link, double
     const double now = problem.chain().length(x, at, link);
     const Vector goal = Vector::Constant(1, length - now);
     const double step = newton_step(problem, x, p, fix_length(problem, x, p, link), goal, true);
+    if (std::isinf(step)) return false;
     // Converged, or as far as rounding lets a short arc: the increment is tiny and no longer falls.
     if (step < 1e-5 && step > 0.3 * last) ++stalls;
     if (step < 1e-12 || stalls >= (step < 1e-7 ? 1 : 3)) return true;

@@ -98,11 +98,7 @@ bool settle_beside(Entry& entry) {
     entry.p = p;
     entry.x = guess;
     entry.p(0) += offset * std::max(1.0, std::abs(p(0)));
-    try {
-      if (entry.problem->polish(entry.x, entry.p, 18) < 0) continue;
-      if (holds(entry)) return true;
-    } catch (const std::exception&) {  // a length or tension left its domain: not this one
-    }
+    if (tried([&] { return entry.problem->polish(entry.x, entry.p, 18) >= 0 && holds(entry); })) return true;
   }
   return false;
 }
@@ -122,11 +118,8 @@ void adjust_length(Entry& entry, int link) {
   for (double length = change * now; change > 1.0 ? length < factor * entered : length > entered;
        length *= change) {
     Entry next = entry;
-    try {
-      if (!solve_at_length(*entry.problem, next.x, next.p, link, length) || !holds(next)) return;
-    } catch (const std::exception&) {
+    if (!tried([&] { return solve_at_length(*entry.problem, next.x, next.p, link, length) && holds(next); }))
       return;
-    }
     entry = next;
   }
 }
@@ -168,28 +161,30 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, i
 std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const Successor& next,
                            double& precision) {
   constexpr int most_together = 5;
-  try {
-    Entry exact = guess;
-    const bool vanishes = (event.kind == Kind::length && !event.redrawn) ||
-                          (event.kind == Kind::curvature && next.opened.empty());
-    const auto found =
-        vanishes ? locate_from_beyond(exact, event.s + 0.5 * least_length * guess.problem->rod().unit_length)
-                 : std::nullopt;
-    if (found && holds(exact)) {
-      precision = *found;
-      return exact;
-    }
-  } catch (const std::exception&) {  // a length or tension left its domain
-  }
+  const double unit = guess.problem->rod().unit_length;
+  Entry exact = guess;
+  const bool vanishes = (event.kind == Kind::length && !event.redrawn) ||
+                        (event.kind == Kind::curvature && next.opened.empty());
+  if (vanishes && tried([&] {
+        const auto found = locate_from_beyond(exact, event.s + 0.5 * least_length * unit);
+        if (found) precision = *found;
+        return found && holds(exact);
+      }))
+    return exact;
+  precision = -1.0;
+  std::optional<Entry> entered;
   if (next.bowed >= 0) {
     Entry bow = guess;
-    return enter_bowed(*bow.problem, bow.x, bow.p, next.bowed) && holds(bow) ? std::optional(bow)
-                                                                             : std::nullopt;
+    if (tried([&] { return enter_bowed(*bow.problem, bow.x, bow.p, next.bowed) && holds(bow); }))
+      entered = bow;
+    return entered;
   }
-  try {
-    if (!next.opened.empty()) return open_in_turn(guess, next.opened, most_together, event.redrawn);
-  } catch (const std::exception&) {
-    return std::nullopt;
+  if (!next.opened.empty()) {
+    tried([&] {
+      entered = open_in_turn(guess, next.opened, most_together, event.redrawn);
+      return true;
+    });
+    return entered;
   }
   Entry beside = guess;
   return settle_beside(beside) ? std::optional(beside) : std::nullopt;

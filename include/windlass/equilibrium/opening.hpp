@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "windlass/chain/singular_matrix.hpp"
 #include "windlass/equilibrium/rod_problem.hpp"
 
 /// Entering a contact topology that has an arc the one before did not have.
@@ -10,6 +11,17 @@
 /// while ℓ itself goes like the square root of the distance to the event: at fixed load Newton has next to no domain
 /// of attraction. With ℓ prescribed and the load free the same equations are nearly linear.
 namespace windlass::equilibrium {
+
+/// What `step` answers, or false where a length or tension leaves its domain or a matrix has no inverse on the way.
+template <class Step>
+bool tried(Step&& step) {
+  try {
+    return step();
+  } catch (const std::domain_error&) {
+  } catch (const chain::SingularMatrix&) {
+  }
+  return false;
+}
 
 /// Lets the shape adjust while the edges of the opened links stay where they are, their location conditions waived.
 void settle_shape(RodProblem& problem, Vector& x, Vector& p, const std::vector<int>& opened);
