@@ -13,8 +13,8 @@ namespace windlass::chain {
 namespace {
 
 constexpr int stages = 6;
-/// Elements of a tail: this many at least, and none longer than so many decay lengths, over which polynomials of degree 6
-/// follow an exponential to 1e-9 at the collocation points.
+/// Elements of a tail: this many at least, and on average none longer than so many decay lengths. The mesh is graded to the
+/// joint: far elements are several times as long, and do not resolve modes of the continuum that live there.
 constexpr int least_elements = 10;
 constexpr double longest_element = 4.0;
 /// An infinite tail is cut so many decay lengths out: exp(−40) is below rounding.
