@@ -69,7 +69,8 @@ Vector localised(const Sparse& linear, double length, double p) {
 BOOST_AUTO_TEST_SUITE(snaking)
 
 BOOST_AUTO_TEST_CASE(every_fold_of_the_loop_and_nothing_else_at_every_step) {
-  // Nine wavelengths: the pattern that fills them is its own mirror image, so the loop's two halves are images of each other.
+  // Nine wavelengths: the pattern that fills them is its own mirror image, and so the loop's two halves are images of
+  // each other.
   const double length = 18.0 * M_PI;
   const Sparse linear = linear_part(length);
   const Vector u = localised(linear, length, -0.3);
