@@ -118,7 +118,8 @@ VectorXd KrylovSpectrum::start() {
 }
 
 int KrylovSpectrum::negative() const {
-  return static_cast<int>(std::count_if(found_.begin(), found_.end(), [](const Pair& pair) {
+  return static_cast<int>(std::count_if(found_.begin(), found_.end(), [&](const Pair& pair) {
+    if (variation_->neutral() && std::abs(pair.value) < neutral_turn) return false;  // the inertia leaves it out, too
     return pair.theta < 0.0 || pair.value <= pair.rounding;
   }));
 }

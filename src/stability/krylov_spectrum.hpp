@@ -9,6 +9,9 @@
 
 namespace windlass::stability {
 
+/// What the error that Newton's method has left makes of the zero of a neutral turn [EI/ρ²].
+inline constexpr double neutral_turn = 3e-9;
+
 /// An eigenpair of Wᵀ K⁻¹ W y = θ y, and of K v = μ M v.
 struct Pair {
   Eigen::VectorXd y, v;

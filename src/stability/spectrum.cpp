@@ -15,9 +15,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// What the error that Newton's method has left makes of the zero of a neutral turn [EI/ρ²].
-constexpr double turn = 3e-9;
-
 /// Sorts the pairs, turns the vectors and drops pairs above those wanted, but never a negative one.
 Spectrum ordered(std::vector<Pair> pairs, const chain::Variation& variation, int count) {
   std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.value < b.value; });
@@ -27,7 +24,7 @@ Spectrum ordered(std::vector<Pair> pairs, const chain::Variation& variation, int
     return std::abs(a.value) < std::abs(b.value);
   });
   for (auto pair = pairs.begin(); pair != pairs.end(); ++pair) {
-    if (pair == nearest && variation.neutral() && std::abs(pair->value) < turn) continue;
+    if (pair == nearest && variation.neutral() && std::abs(pair->value) < neutral_turn) continue;
     out.index += pair->value < -pair->rounding;
     out.rounded |= std::abs(pair->value) <= pair->rounding;
   }

@@ -130,4 +130,60 @@ BOOST_AUTO_TEST_CASE(the_loss_of_the_last_contact_is_a_point_in_the_plane_of_ten
   BOOST_TEST(read_csv(folder.path() / "curve" / "branches.csv").rows.size() == 1u);
 }
 
+namespace {
+
+nlohmann::json special_points(const std::filesystem::path& run) {
+  return nlohmann::json::parse(slurp(run / "special_points.json"));
+}
+
+}  // namespace
+
+// Where a gap opens the branch goes on at the event itself: a target a millionth beyond is reached, and from far beyond the
+// branch comes back through the same event.
+BOOST_AUTO_TEST_CASE(an_opening_gap_is_passed_in_both_directions) {
+  const TemporaryFolder folder;
+  draw(folder, "capstan-2pi", {"continuation.to=0.45"});
+  double opens = 0.0;
+  for (const auto& point : special_points(folder.path() / "run"))
+    if (point["branch"] == 2 && point["type"] == "contact") opens = point["T"];
+  BOOST_TEST(std::abs(opens - 0.5077333) < 1e-7);
+  const auto last = rows_of(folder).rows.back();
+  BOOST_TEST_REQUIRE(last.at("branch") == "2");
+  const std::string label = "2-" + last.at("point");
+  for (const double beyond : {-1e-6, 1e-6}) {
+    const TemporaryFolder near;
+    draw(near, "capstan-2pi", {"continuation.to=" + std::to_string(opens + beyond)});
+    double least = 1e9;
+    for (const auto& row : rows_of(near).rows)
+      if (row.at("branch") == "2") least = std::min(least, number(row, "T"));
+    BOOST_TEST(std::abs(least - opens - beyond) < 1e-6);  // as many digits as the target was written with
+  }
+  const Outcome back = run_program({"continue", "run", label, "--set", "continuation.to=1.2", "--out", "back",
+                                    "--quiet", "--no-eigenvalues"},
+                                   folder.path());
+  BOOST_TEST(back.status == 0, back.err);
+  BOOST_TEST(run_program({"verify", "back"}, folder.path()).status == 0);
+  const auto passed = special_points(folder.path() / "back");
+  BOOST_TEST_REQUIRE(passed.size() == 1u);
+  BOOST_TEST(std::abs(passed[0]["T"].get<double>() - opens) < 1e-8);
+  BOOST_TEST(passed[0]["after"] == "tail line tail");
+}
+
+// The unit of stiffness is the user's: forces scale with it, and nothing else changes, to the last digits.
+BOOST_AUTO_TEST_CASE(the_unit_of_stiffness_does_not_matter) {
+  std::vector<double> expected;
+  for (const double b : {1.0, 1e-4, 1e4}) {
+    const TemporaryFolder folder;
+    draw(folder, "capstan-2pi",
+         {"rod.bending_stiffness=" + std::to_string(b), "load.tension=" + std::to_string(b),
+          "continuation.from=" + std::to_string(5.0 * b), "continuation.to=" + std::to_string(0.2 * b)});
+    std::vector<double> found;
+    for (const auto& point : special_points(folder.path() / "run"))
+      found.push_back(point["T"].get<double>() / b);
+    if (expected.empty()) expected = found;
+    BOOST_TEST(found == expected, boost::test_tools::tolerance(1e-12) << boost::test_tools::per_element());
+  }
+  BOOST_TEST(expected.size() == 4u);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -29,10 +29,10 @@ equilibrium::Stability stability_of(Started& start, int count, bool modes = fals
 BOOST_AUTO_TEST_SUITE(spectra)
 
 BOOST_AUTO_TEST_CASE(infinite_tails_have_the_bound_states_of_long_ones) {
-  // Touches at 3 pi, a line at 2 pi. A mode below the pull decays along the tails, by e^(−2 √(T − μ) 50) at least here.
+  // Touches at 3 pi, a line at 2 pi. A mode below the pull decays along the tails, by e^(−2 √(T − μ) 20) at least here.
   for (const auto& [tension, angle] : {std::pair{0.3, 3.0 * M_PI}, std::pair{1.0, 2.0 * M_PI}}) {
     Started infinite = start_of(tension, angle, std::numeric_limits<double>::infinity(), false);
-    Started finite = start_of(tension, angle, 120.0, false);
+    Started finite = start_of(tension, angle, 60.0, false);
     const auto a = stability_of(infinite, 2), b = stability_of(finite, 2);
     BOOST_TEST_CONTEXT("T " << tension << ", phi " << angle) {
       BOOST_TEST(a.index == 0);

@@ -70,4 +70,26 @@ BOOST_AUTO_TEST_CASE(scales_follow_from_length_and_stiffness) {
   BOOST_TEST(scale_of(units, Dimension::none) == 1.0);
 }
 
+BOOST_AUTO_TEST_CASE(a_scene_in_natural_units_is_the_same_scene) {
+  Scene scene;  // a strut
+  scene.rod.length = 8.0;
+  scene.rod.bending_stiffness = 0.5;
+  scene.rod.bending_stiffness_2 = 2.0;
+  scene.rod.natural_curvature = 0.25;
+  scene.load.thrust = 3.0;
+  scene.walls.push_back({{0.0, 1.0, 0.0}, 0.4});
+  scene.continuation = Continuation{.parameter = "load.thrust", .from = 1.0, .to = 3.0};
+  const Scene solved = natural(scene);
+  BOOST_TEST(solved.rod.length == 1.0);
+  BOOST_TEST(solved.rod.bending_stiffness == 1.0);
+  BOOST_TEST(solved.rod.bending_stiffness_2 == 4.0);
+  BOOST_TEST(solved.rod.natural_curvature == 2.0);
+  BOOST_TEST(*solved.load.thrust == 3.0 * 64.0 / 0.5);  // P L²/B
+  BOOST_TEST(solved.continuation->to == *solved.load.thrust);
+  BOOST_TEST(solved.walls[0].distance == 0.05);
+  BOOST_TEST((as_given(solved) == scene));  // powers of two: no rounding
+  BOOST_TEST(as_given(solved, "load.thrust", solved.continuation->from) == 1.0);
+  BOOST_TEST((natural(solved) == solved));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
