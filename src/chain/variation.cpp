@@ -1,5 +1,6 @@
 #include "windlass/chain/variation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -36,8 +37,10 @@ Variation::Variation(const Linearisation& at, Parity parity) : at_(at) {
   if (phase_ >= 0) hold_phase(purpose, numbering, dense);
   dense = (0.5 * (dense + dense.transpose())).eval();
   neutral_ = chain.neutral_turn_ && (!chain.half() || *chain.neutral_turn_ == parity);
+  const int but_turn = chain.neutral_turn_ ? negative_but_turn(dense, numbering.location) : 0;
+  if (neutral_) hold_turn(dense);
   factors_ = std::make_shared<const SymmetricFactors>(dense);
-  negative_ += chain.neutral_turn_ ? negative_but_turn(dense, numbering.location) : factors_->negative();
+  negative_ += chain.neutral_turn_ ? but_turn : factors_->negative();
   negative_ -= numbering.constraints;
 }
 
@@ -65,6 +68,33 @@ void Variation::place(Chain::Purpose purpose, const Chain::Numbering& numbering,
   if (part.slope.size() > 0) here.left = numbering.location[link], here.right = numbering.location[link + 1];
   points_ += part.root.size();
   places_.push_back(std::move(here));
+}
+
+/// D + τ d dᵀ for the dense block D of a singular K, d the dense part of its null vector g: solves K v = f for every f with
+/// gᵀf = 0, as gᵀ times the equation says that d·v = 0.
+void Variation::hold_turn(MatrixXd& dense) {
+  constexpr double zero = 1e-6;  // of the pivot in the middle: the error that Newton's method has left
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(dense);
+  VectorXd sizes = eigen.eigenvalues().cwiseAbs();
+  Eigen::Index nearest = 0;
+  const double least = sizes.minCoeff(&nearest);
+  std::nth_element(sizes.begin(), sizes.begin() + sizes.size() / 2, sizes.end());
+  const double usual = sizes(sizes.size() / 2);
+  if (least > zero * usual) return;
+  const VectorXd d = eigen.eigenvectors().col(nearest);
+  dense += usual * d * d.transpose();
+  neutral_motion_ = VectorXd::Zero(size_);
+  for (std::size_t k = 0; k < dense_.size(); ++k)
+    neutral_motion_(dense_[k]) = d(static_cast<Eigen::Index>(k));
+  VectorXd share;
+  for (const Place& here : places_) {
+    const Arc& arc = *here.part->arc;
+    if (arc.interior_nodes() == 0) continue;
+    share.resize(here.local.dofs.size());
+    for (Eigen::Index r = 0; r < share.size(); ++r) share(r) = d(here.local.dofs[r]);
+    const bvp::EndsVector ends = here.local.columns * share;
+    arc.expand(neutral_motion_.data() + here.interior, ends);
+  }
 }
 
 /// K + τ M g gᵀ M, g the phase's motion of unit size: moves it out of the way and, as K g = 0, leaves all other eigenvectors

@@ -95,7 +95,9 @@ bool KrylovSpectrum::find(EPSWhich which, int wanted) {
     check(EPSGetEigenpair(eps_, k, &pairs[k].first, nullptr, vector_, nullptr));
     petsc::copy(vector_, pairs[k].second);
   }
-  const double largest = found_.empty() ? 0.0 : std::abs(found_.front().theta);
+  double largest = 0.0;
+  for (const Pair& known : found_)
+    if (std::isfinite(known.theta)) largest = std::max(largest, std::abs(known.theta));
   for (auto& [theta, y] : pairs) {
     const double size = std::abs(theta);
     if (size <= negligible * largest) return false;
@@ -119,7 +121,8 @@ VectorXd KrylovSpectrum::start() {
 
 int KrylovSpectrum::negative() const {
   return static_cast<int>(std::count_if(found_.begin(), found_.end(), [&](const Pair& pair) {
-    if (variation_->neutral() && std::abs(pair.value) < neutral_turn) return false;  // the inertia leaves it out, too
+    if (variation_->neutral() && std::abs(pair.value) < neutral_turn)
+      return false;  // the inertia leaves it out, too
     return pair.theta < 0.0 || pair.value <= pair.rounding;
   }));
 }
@@ -214,6 +217,17 @@ std::vector<Pair> KrylovSpectrum::solve(const Variation& variation, int count) {
   variation_ = &variation;
   found_.clear();
   starts_ = 0;
+  if (variation.neutral_motion().size() > 0) {  // known; in the operator it would drown all others
+    Pair turn;
+    turn.v = variation.neutral_motion();
+    turn.y = variation.rotations(turn.v);
+    turn.v /= turn.y.norm();
+    turn.y.normalize();
+    turn.theta = std::numeric_limits<double>::infinity();
+    const Variation::Quotient quotient = variation.quotient(turn.v);
+    turn.value = quotient.value, turn.rounding = quotient.rounding;
+    found_.push_back(std::move(turn));
+  }
   if (find(EPS_LARGEST_MAGNITUDE, 1)) {
     find_negative(variation.negative());
     find_nearest(count);

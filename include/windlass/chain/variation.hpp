@@ -62,7 +62,9 @@ class Variation {
   VectorXd rotations(const VectorXd& v) const;                ///< Wᵀ v
   VectorXd loads(const Eigen::Ref<const VectorXd>& y) const;  ///< W y
   VectorXd solve(VectorXd f) const;                           ///< K⁻¹ f, by the arcs' factors
-  VectorXd product(const VectorXd& v) const;                  ///< K v, by the arcs' uncondensed Hessians
+  /// The motion g of a neutral turn, K g = 0; empty: there is none. solve() then is for f with gᵀf = 0.
+  const VectorXd& neutral_motion() const { return neutral_motion_; }
+  VectorXd product(const VectorXd& v) const;  ///< K v, by the arcs' uncondensed Hessians
 
   /// vᵀKv / vᵀMv by the arcs' uncondensed Hessians, whose error is the square of v's, and what rounding may have made of
   /// it: eps times the sum of the sizes of all terms.
@@ -81,6 +83,7 @@ class Variation {
     Eigen::Index left = -1, right = -1;  ///< in v, of a touch's arclength
   };
   void place(Chain::Purpose purpose, const Chain::Numbering& numbering, int link);
+  void hold_turn(MatrixXd& dense);
   void hold_phase(Chain::Purpose purpose, const Chain::Numbering& numbering, MatrixXd& dense);
   /// Values of v at a place's local unknowns.
   VectorXd gathered(const Place& place, const VectorXd& v) const;
@@ -91,6 +94,7 @@ class Variation {
   Eigen::Index size_ = 0, points_ = 0, phase_ = -1;
   int negative_ = 0;
   bool neutral_ = false;
+  VectorXd neutral_motion_;
   MatrixXd joints_;                        ///< terms of the dense block that no arc makes
   VectorXd motion_, reduced_, condensed_;  ///< the phase's row over v; reduced; K⁻¹ of it in the interiors
   std::shared_ptr<const class SymmetricFactors> factors_;
