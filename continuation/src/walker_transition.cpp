@@ -172,8 +172,8 @@ bool Walker::enter(const Transition& transition, int direction, const std::strin
     try {
       for (const int sign : {direction, -direction}) {
         Tangent tangent = first_tangent(*problem, it.x, it.p, options_, sign);
-        if (transition.silent ? !goes_on(*problem, it.x, it.p, tangent)
-                              : !valid_direction(problem, it.x, it.p, tangent, passed)) {
+        // The same curve, described otherwise: the parameter goes the same way.
+        if (transition.silent ? sign != direction : !valid_direction(problem, it.x, it.p, tangent, passed)) {
           failure = "the new problem is not valid in either direction";
           continue;
         }
@@ -206,18 +206,6 @@ bool Walker::enter(const Transition& transition, int direction, const std::strin
     }
   }
   return false;
-}
-
-// Does a tangent of the same state, described otherwise, point forward? Fingerprints compare the two.
-bool Walker::goes_on(Problem& problem, const Vector& x, const Vector& p, const Tangent& tangent) {
-  const double small = 1e-2 * step_length_.current();
-  const auto change = [&](Problem& of, const Vector& at, const Vector& where, const Tangent& along) {
-    Vector beyond = where;
-    parameter(beyond) += small * along.p;
-    return Vector(of.fingerprint(of.retract(at, small * along.x), beyond) - of.fingerprint(at, where));
-  };
-  return change(*state_.problem, state_.x, state_.p, state_.tangent).dot(change(problem, x, p, tangent)) >=
-         0.0;
 }
 
 bool Walker::valid_direction(const std::shared_ptr<Problem>& problem, const Vector& x, const Vector& p,

@@ -141,7 +141,7 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, i
   }
   const auto worst = std::min_element(events.begin(), events.end(),
                                       [](const auto& a, const auto& b) { return a.value < b.value; });
-  if (depth == 0 || worst->kind != Kind::pressure) return std::nullopt;
+  if (depth == 0 || (worst->kind != Kind::pressure && worst->kind != Kind::suction)) return std::nullopt;
   const std::vector<double> s = entry.problem->joint_places(entry.x, entry.p, shape);
   for (const Successor& next : successors(*worst, shape, topology, s)) {
     if (next.opened.empty()) continue;

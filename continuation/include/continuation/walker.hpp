@@ -97,7 +97,6 @@ class Walker {
   void note(Point event, const EventFunction& function, const Transition& transition);
   void pass(Point event, std::size_t which, const std::string& name, int direction);
   bool enter(const Transition& transition, int direction, const std::string& passed, std::string& failure);
-  bool goes_on(Problem& problem, const Vector& x, const Vector& p, const Tangent& tangent);
   bool valid_direction(const std::shared_ptr<Problem>& problem, const Vector& x, const Vector& p,
                        const Tangent& tangent, const std::string& passed);
 
