@@ -143,9 +143,16 @@ std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, co
     event.hi = bracket.hi;
     event.precision = width(segment, bracket.lo, bracket.hi) + solved_to(segment, event.sample);
     const double narrow = 1e-5 * segment.options().parameter_scale;
-    if (!bracket.converged && event.precision > narrow) {
+    if (!bracket.converged && (event.precision > narrow || first->passes)) {
       event.note = "bracket not converged: " + segment.failure();
     }
+    // A function of the branch is continuous: where it jumps, the two ends lie on two branches.
+    const double largest = std::max(std::abs(first->value), std::abs(find(top->events, name)->value));
+    const auto at_lo = value(bracket.lo), at_hi = value(bracket.hi);
+    constexpr double jump = 1e-2, sharp = 1e-6;
+    if (bracket.converged && at_lo && at_hi && bracket.hi - bracket.lo < sharp * top->s &&
+        std::max(std::abs(*at_lo), std::abs(*at_hi)) > jump * largest)
+      event.note = "the corrector has left the branch: the function jumps";
     if (!bracket.converged) {
       unsolved.push_back(name);
       if (!found) found = std::move(event);
