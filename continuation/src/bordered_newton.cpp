@@ -81,9 +81,11 @@ bool StoppingRule::last(double length, double residual, double state_size, bool 
     stagnant = contraction(length) > 0.2;
   }
   const bool small = length <= tolerance || (stagnant && (exhausted || length <= rounding));
-  // Where corrections are this small twice, what is left of F is the rounding of its large terms (those of an arc
-  // about to vanish, say).
-  const bool rounded = taken_ > 0 && previous_ <= tolerance && length <= 0.1 * tolerance;
+  // Where corrections are this small twice and F no longer falls, what is left of it is the rounding of its large terms
+  // (those of an arc about to vanish, say).
+  constexpr double still_falls = 0.3;
+  const bool rounded = taken_ > 0 && previous_ <= tolerance && length <= 0.1 * tolerance &&
+                       residual > still_falls * previous_residual_;
   // What the last correction leaves of F goes on as before: a good part of what is allowed where they converge slowly.
   constexpr double left = 0.1;
   const double after = taken_ > 0 ? residual * std::min(1.0, residual / previous_residual_) : 0.0;
