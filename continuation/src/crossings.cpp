@@ -100,9 +100,10 @@ class Search {
     const int zeros = zeros_between(lo, hi);
     if (zeros < 0 || zeros % 2 == 1) return true;
     // The bracket of a turn ends wide where Newton's method fails close to a branch point.
-    const double slack = together(segment_);
     for (const Located& point : found.points) {
       if (point.type != PointType::branch_point || point.s < lo.s || point.s > hi.s) continue;
+      // Near a turn p tells no places apart: s is known to the root of p's precision.
+      const double slack = together(segment_) + std::sqrt(point.precision / options_.parameter_scale);
       if (point.s > turn.lo - slack && point.s < turn.hi + slack) return false;
       // Apart from each other the two enclose an interval where the index has the other parity.
       const Sample* middle = segment_.at(0.5 * (point.s + turn.s), true);

@@ -38,12 +38,12 @@ const EventFunction* find(const std::vector<EventFunction>& events, const std::s
   return it == events.end() ? nullptr : &*it;
 }
 
+}  // namespace
+
 int sign_of(const EventSigns& signs, const std::string& name) {
   const auto it = signs.find(name);
   return it == signs.end() || it->second == 0 ? 1 : it->second;
 }
-
-}  // namespace
 
 bool is_vertical(const Segment& segment, const Sample& lo, const Sample& hi) {
   const double unit = segment.options().parameter_scale;

@@ -100,11 +100,14 @@ void search(Segment& segment, const Sample& lo, const Sample& hi, int depth,
   if (hi.s - lo.s > smallest && depth < 60) middle = segment.at(0.5 * (lo.s + hi.s), true);
   if (!middle) {
     // Newton's method fails this close to a singular point: the restricted one, if it is here.
-    const double width = 16.0 * (hi.s - lo.s);
-    const auto here = [&](const Located& point) { return point.s > lo.s - width && point.s < hi.s + width; };
+    const double apart = std::abs(segment.parameter(hi) - segment.parameter(lo)),
+                 width = 16.0 * (hi.s - lo.s);
+    const auto here = [&](const Located& point) {
+      return (point.s > lo.s - width && point.s < hi.s + width) ||
+             std::abs(segment.parameter(point.sample) - segment.parameter(lo)) <= 16.0 * apart;
+    };
     // A count that changes over a stretch that cannot be solved (next to an event, say) is no point.
     constexpr double narrow = 1e-5;
-    const double apart = std::abs(segment.parameter(hi) - segment.parameter(lo));
     if (apart <= narrow * std::max(1.0, std::abs(segment.parameter(lo))) &&
         std::none_of(restricted.begin(), restricted.end(), here))
       found.push_back(unpolished(segment, lo, hi, std::abs(hi.breaking_index - lo.breaking_index), why));

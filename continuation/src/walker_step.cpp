@@ -115,24 +115,7 @@ bool Walker::find_specials(Segment& segment, const Sample& end, const Located* t
                  1e-8 * std::max(options_.parameter_scale, std::abs(p)) ||
              (l.type == PointType::branch_point && !l.branch_point && l.hi >= end.s);
     });
-  // A bracket round a point that was polished is that point: Newton's method fails next to it.
-  std::vector<double> polished;
-  for (const Located& l : found)
-    if (l.branch_point) polished.push_back(segment.parameter(l.sample));
-  std::erase_if(found, [&](const Located& l) {
-    if (l.type != PointType::branch_point || l.branch_point) return false;
-    const double at = segment.parameter(l.sample);
-    return std::any_of(polished.begin(), polished.end(),
-                       [&](double other) { return std::abs(other - at) <= 16.0 * l.precision; });
-  });
-  // On the side branch of a pitchfork dp/ds vanishes at the branch point: that is not a fold. Near a turn p tells no places
-  // apart, s does to the root of p's precision.
-  const bool at_branch_point =
-      turn && std::any_of(found.begin(), found.end(), [&](const Located& l) {
-        const double close_by = 1e-4 * end.s + std::sqrt(l.precision / options_.parameter_scale) + 1e-7;
-        return l.type == PointType::branch_point && std::abs(l.s - turn->s) < close_by;
-      });
-  if (turn && crossings.fold && !at_branch_point && options_.detect_folds) {
+  if (turn && crossings.fold && options_.detect_folds) {
     Located fold = *turn;
     try {
       sharpen_fold(segment, fold);

@@ -52,17 +52,21 @@ void Walker::adapt() {
   }
 }
 
-// The zero of a function that may change its sign: a point of the branch, which goes on.
-void Walker::note(Point event, const EventFunction& function, const Transition& transition) {
-  const auto known = state_.signs.find(function.name);
-  const int sign = known == state_.signs.end() ? 1 : known->second;
-  state_.signs[function.name] = -sign;
-  event.before = sign > 0 ? transition.before : transition.after;
-  event.after = sign > 0 ? transition.after : transition.before;
+// The walker's own state is what lies beyond the event.
+void Walker::say_what_follows(Point& event) const {
   event.index_after = state_.index;
   event.next_problem = state_.problem->clone();
   event.next_x = state_.x;
   event.next_p = state_.p;
+}
+
+// The zero of a function that may change its sign: a point of the branch, which goes on.
+void Walker::note(Point event, const EventFunction& function, const Transition& transition) {
+  const int sign = sign_of(state_.signs, function.name);
+  state_.signs[function.name] = -sign;
+  event.before = sign > 0 ? transition.before : transition.after;
+  event.after = sign > 0 ? transition.after : transition.before;
+  say_what_follows(event);
   const std::string said = event.before + " -> " + event.after;
   const double here = parameter(state_.p),
                far = std::max(1e-8 * std::max(1.0, std::abs(here)), 2.0 * event.precision);
@@ -106,10 +110,7 @@ void Walker::pass(Point event, std::size_t which, const std::string& name, int d
     event.tangent = state_.tangent;
     event.precision = transition->precision;
   }
-  event.index_after = state_.index;
-  event.next_problem = state_.problem->clone();
-  event.next_x = state_.x;
-  event.next_p = state_.p;
+  say_what_follows(event);
   const double before = event.p[options_.parameter];
   if (!transition->silent) queue_.push_back(std::move(event));
   for (const double stop : {options_.target, options_.lower, options_.upper}) {

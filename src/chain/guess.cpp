@@ -218,6 +218,17 @@ std::vector<double> tail_mesh(double tension, double length, int elements, int s
   return mesh;
 }
 
+std::vector<double> split_mesh(const std::vector<double>& mesh, double size, double longest, double whole) {
+  std::vector<double> out{mesh.front()};
+  for (std::size_t k = 1; k < mesh.size(); ++k) {
+    const double h = mesh[k] - mesh[k - 1];
+    const int parts =
+        h * size > longest && h * size < whole ? static_cast<int>(std::ceil(h * size / longest)) : 1;
+    for (int i = 1; i <= parts; ++i) out.push_back(i == parts ? mesh[k] : mesh[k - 1] + h * i / parts);
+  }
+  return out;
+}
+
 std::vector<double> uniform_mesh(int elements) {
   std::vector<double> mesh;
   for (int i = 0; i <= elements; ++i) mesh.push_back(static_cast<double>(i) / elements);

@@ -25,13 +25,7 @@ std::unique_ptr<Arc> mesh_of_tail(const RodKind& rod, double decay_lengths, bool
   std::vector<double> mesh = tail_mesh(1.0, decay_lengths, elements, stages);
   // Where the tail is straight its modes still are waves: no element longer than a few of its decay lengths.
   constexpr double longest_far = 3.0;
-  std::vector<double> fine{mesh.front()};
-  for (std::size_t k = 1; k < mesh.size(); ++k) {
-    const double h = mesh[k] - mesh[k - 1];
-    const int parts = static_cast<int>(std::ceil(h * decay_lengths / longest_far));
-    for (int i = 1; i <= parts; ++i) fine.push_back(i == parts ? mesh[k] : mesh[k - 1] + h * i / parts);
-  }
-  mesh = std::move(fine);
+  mesh = split_mesh(mesh, decay_lengths, longest_far);
   if (!starts_at_joint) {
     std::reverse(mesh.begin(), mesh.end());
     for (double& node : mesh) node = 1.0 - node;

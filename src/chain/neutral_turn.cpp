@@ -13,13 +13,6 @@ namespace {
 /// What a neutral motion leaves of a pivot, as a part of the others: the error that Newton's method has left.
 constexpr double nearly_zero = 1e-6;
 
-/// Size of the entries in the middle: an arc that is singular by itself leaves one of 1e10.
-double median(VectorXd values) {
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// The vector of a null space (orthonormal columns) with the least part in the rows of location conditions.
 /// @param locations  those rows, −1: none
 struct Least {
@@ -38,6 +31,12 @@ struct Least {
 };
 
 }  // namespace
+
+double median(VectorXd values) {
+  const auto middle = values.begin() + values.size() / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
 
 bool is_singular(const Eigen::PartialPivLU<MatrixXd>& lu) {
   const VectorXd pivots = lu.matrixLU().diagonal().cwiseAbs();

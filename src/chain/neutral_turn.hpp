@@ -6,6 +6,9 @@
 /// A turn of the whole rod that costs nothing (Chain::expect_neutral_turn), in the dense block of a chain.
 namespace windlass::chain {
 
+/// Size of the entries in the middle: an arc that is singular by itself leaves one of 1e10.
+double median(Eigen::VectorXd values);
+
 /// Is a factorised matrix singular but for the error that Newton's method has left?
 bool is_singular(const Eigen::PartialPivLU<Eigen::MatrixXd>& lu);
 

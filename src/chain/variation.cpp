@@ -75,25 +75,30 @@ void Variation::place(Chain::Purpose purpose, const Chain::Numbering& numbering,
 void Variation::hold_turn(MatrixXd& dense) {
   constexpr double zero = 1e-6;  // of the pivot in the middle: the error that Newton's method has left
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(dense);
-  VectorXd sizes = eigen.eigenvalues().cwiseAbs();
   Eigen::Index nearest = 0;
-  const double least = sizes.minCoeff(&nearest);
-  std::nth_element(sizes.begin(), sizes.begin() + sizes.size() / 2, sizes.end());
-  const double usual = sizes(sizes.size() / 2);
+  const double least = eigen.eigenvalues().cwiseAbs().minCoeff(&nearest);
+  const double usual = median(eigen.eigenvalues().cwiseAbs());
   if (least > zero * usual) return;
   const VectorXd d = eigen.eigenvectors().col(nearest);
   dense += usual * d * d.transpose();
   neutral_motion_ = VectorXd::Zero(size_);
-  for (std::size_t k = 0; k < dense_.size(); ++k)
-    neutral_motion_(dense_[k]) = d(static_cast<Eigen::Index>(k));
+  expand(d, neutral_motion_);
+}
+
+/// Puts the dense unknowns y into v; its interiors, reduced right sides so far, follow.
+void Variation::expand(const VectorXd& y, VectorXd& v) const {
+  for (std::size_t k = 0; k < dense_.size(); ++k) v(dense_[k]) = y(static_cast<Eigen::Index>(k));
   VectorXd share;
+  bvp::EndsVector ends;
   for (const Place& here : places_) {
     const Arc& arc = *here.part->arc;
     if (arc.interior_nodes() == 0) continue;
+    auto inside = v.segment(here.interior, arc.interior_tangent());
+    if (phase_ >= 0) inside -= y(phase_) * reduced_.segment(here.interior, arc.interior_tangent());
     share.resize(here.local.dofs.size());
-    for (Eigen::Index r = 0; r < share.size(); ++r) share(r) = d(here.local.dofs[r]);
-    const bvp::EndsVector ends = here.local.columns * share;
-    arc.expand(neutral_motion_.data() + here.interior, ends);
+    for (Eigen::Index r = 0; r < share.size(); ++r) share(r) = y(here.local.dofs[r]);
+    ends.noalias() = here.local.columns * share;
+    arc.expand(inside.data(), ends);
   }
 }
 
@@ -184,17 +189,7 @@ VectorXd Variation::solve(VectorXd f) const {
   for (Eigen::Index k = 0; k < count; ++k) y(k) = f(dense_[k]);
   if (phase_ >= 0) y(phase_) -= along;
   factors_->solve(y);
-  for (Eigen::Index k = 0; k < count; ++k) f(dense_[k]) = y(k);
-  for (const Place& here : places_) {
-    const Arc& arc = *here.part->arc;
-    if (arc.interior_nodes() == 0) continue;
-    auto inside = f.segment(here.interior, arc.interior_tangent());
-    if (phase_ >= 0) inside -= y(phase_) * reduced_.segment(here.interior, arc.interior_tangent());
-    share.resize(here.local.dofs.size());
-    for (Eigen::Index r = 0; r < share.size(); ++r) share(r) = y(here.local.dofs[r]);
-    ends.noalias() = here.local.columns * share;
-    arc.expand(inside.data(), ends);
-  }
+  expand(y, f);
   return f;
 }
 

@@ -90,7 +90,6 @@ std::pair<double, double> slopes(const Piece& line, double s) {
 /// How far p + b x + a x²/2 stays negative from x = 0 on, at most `most`.
 double reach(double p, double b, double a, double most) {
   const double root = b * b - 2.0 * a * p;
-  if (p >= 0.0) return 0.0;
   if (root < 0.0 || b + std::sqrt(root) <= 0.0) return most;
   return std::min(most, -2.0 * p / (b + std::sqrt(root)));
 }
@@ -107,6 +106,7 @@ ContactEvent least_pressure(const Piece& line, int link, bool begins_at_mid) {
   // Pressed evenly it lifts all at once, and a line that shrinks to nothing is not cut.
   const bool even = line.p.maxCoeff() - line.p.minCoeff() < 1e-6;
   event.passes = !even && end - begin > 10.0 * least_length;
+  if (least.value >= 0.0) return event;
   const auto [b, a] = slopes(line, least.s);
   event.from = least.s - reach(least.value, -b, a, least.s - begin);
   event.to = least.s + reach(least.value, b, a, end - least.s);
@@ -199,8 +199,9 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
     const Piece& piece = profile.pieces[i];
     const bool at_mid = topology.half && i == 0;
     if (piece.stretch == Stretch::line) {
-      events.push_back(least_pressure(piece, i, at_mid && !topology.mid_touch));
-      events.push_back(suction(piece, ContactEvent(events.back())));
+      const ContactEvent pressure = least_pressure(piece, i, at_mid && !topology.mid_touch);
+      events.push_back(pressure);
+      events.push_back(suction(piece, pressure));
     }
     if (piece.stretch != Stretch::tail)
       events.push_back(length_event(profile, i, at_mid && !topology.mid_touch));

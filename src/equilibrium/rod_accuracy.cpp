@@ -26,18 +26,6 @@ constexpr double certificate_level = 5e-10;
 /// instead.
 constexpr double longest = 3.0, whole = 25.0;
 
-/// Splits elements that are longer.
-std::vector<double> bounded(const std::vector<double>& mesh, double growth) {
-  std::vector<double> out{mesh.front()};
-  for (std::size_t k = 1; k < mesh.size(); ++k) {
-    const double h = mesh[k] - mesh[k - 1];
-    const int parts =
-        h * growth > longest && h * growth < whole ? static_cast<int>(std::ceil(h * growth / longest)) : 1;
-    for (int i = 1; i <= parts; ++i) out.push_back(i == parts ? mesh[k] : mesh[k - 1] + h * i / parts);
-  }
-  return out;
-}
-
 double growth_over(const chain::Chain::Placed& arc, double bending_stiffness) {
   return arc.length * std::sqrt(arc.n.norm() / bending_stiffness);
 }
@@ -125,7 +113,7 @@ std::vector<chain::ArcMesh> RodProblem::new_meshes(const Vector& x, const Loads&
     }
     mesh.push_back(1.0);
     const chain::Chain::Placed placed = chain_->place(x, at, static_cast<int>(i));
-    out[i].nodes = bounded(mesh, growth_over(placed, rod_.bending_stiffness));
+    out[i].nodes = chain::split_mesh(mesh, growth_over(placed, rod_.bending_stiffness), longest, whole);
   }
   return out;
 }

@@ -210,10 +210,7 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
     transition.before = topology_.text();
     transition.after = next.topology.text();
     transition.silent = event.redrawn;
-    if (event.passes) {
-      transition.problem = clone();
-      return transition;
-    }
+    if (event.passes) return transition;
     if (next.nothing_left && !rod_.strut) {  // a free rod goes on without contact
       transition.after = "no contact";
       return transition;  // null problem: the branch ends here

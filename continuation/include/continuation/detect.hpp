@@ -44,6 +44,7 @@ void sharpen_fold(Segment& segment, Located& fold);
 
 /// Signs of the events along a branch, by name. An event without an entry counts as positive.
 using EventSigns = std::map<std::string, int>;
+int sign_of(const EventSigns& signs, const std::string& name);
 
 /// The first zero of any event between the segment's base and the sample `hi` (both with events). An event
 /// whose value at the base has already the wrong sign (within roundoff of zero) is located at the base.

@@ -94,6 +94,7 @@ class Walker {
   void adapt();
 
   // walker_transition.cpp
+  void say_what_follows(Point& event) const;
   void note(Point event, const EventFunction& function, const Transition& transition);
   void pass(Point event, std::size_t which, const std::string& name, int direction);
   bool enter(const Transition& transition, int direction, const std::string& passed, std::string& failure);

@@ -23,5 +23,8 @@ Profile strut_profile(const Loads& loads, double bow);
 /// Mesh for a tail of `length` with a layer of width 1/sqrt(T) at its start, and evenly graded beyond.
 std::vector<double> tail_mesh(double tension, double length, int elements, int stages);
 std::vector<double> uniform_mesh(int elements);
+/// A mesh of an arc of this size, elements longer than `longest` in equal parts; those of `whole` and more are left.
+std::vector<double> split_mesh(const std::vector<double>& mesh, double size, double longest,
+                               double whole = HUGE_VAL);
 
 }  // namespace windlass::chain

@@ -84,6 +84,7 @@ class Variation {
   };
   void place(Chain::Purpose purpose, const Chain::Numbering& numbering, int link);
   void hold_turn(MatrixXd& dense);
+  void expand(const VectorXd& y, VectorXd& v) const;
   void hold_phase(Chain::Purpose purpose, const Chain::Numbering& numbering, MatrixXd& dense);
   /// Values of v at a place's local unknowns.
   VectorXd gathered(const Place& place, const VectorXd& v) const;

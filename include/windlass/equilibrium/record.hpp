@@ -6,7 +6,8 @@
 /// From a discrete state to the value that is written, plotted and checked, and back.
 namespace windlass::equilibrium {
 
-/// The whole rod (both halves) at state x and parameters p, in the units of the scene as its user wrote it. Error estimate and iterations are the problem's last.
+/// The whole rod (both halves) at state x and parameters p, in the units of the scene as its user wrote it. Error estimate
+/// and iterations are the problem's last.
 Solution record(RodProblem& problem, const Vector& x, const Vector& p);
 
 /// Topology, meshes and units of the state as JSON text.
