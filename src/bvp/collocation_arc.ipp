@@ -15,6 +15,7 @@ CollocationArc<Density>::CollocationArc(Density density, std::vector<double> mes
   node_factors_.resize(mesh_.size() - 2);
   for (auto& factor : element_factors_) factor.resize(inner(), E);
   for (auto& factor : node_factors_) factor.resize(D, E);
+  for (Held& held : held_) held.direction.setZero(D);
   const int columns = inner() + 2 * D;
   increments_.setZero(2 * A * stages, columns);
   weighted_.setZero(2 * A * stages, columns);
@@ -247,9 +248,25 @@ void CollocationArc<Density>::scalar_hessian(const Nodes& q, const ArcPoint& at,
 }
 
 template <class Density>
+void CollocationArc<Density>::hold_node(Eigen::MatrixXd& block, double parts) {
+  constexpr double cancelled = 1e-4;  // digits that a pivot may lose: 4 of 16
+  using Square = Eigen::Matrix<double, D, D>;
+  const Square pivot = Square(block.template topLeftCorner<D, D>()).template selfadjointView<Eigen::Lower>();
+  const Eigen::SelfAdjointEigenSolver<Square> eigen(pivot);
+  for (int k = 0; k < D; ++k) {
+    if (std::abs(eigen.eigenvalues()(k)) > cancelled * parts) continue;
+    Held& held = held_[held_count_++];
+    held.first = interior_tangent() - stages() * D;
+    held.direction = std::sqrt(parts) * eigen.eigenvectors().col(k);
+    block.template topLeftCorner<D, D>() += held.direction * held.direction.transpose();
+  }
+}
+
+template <class Density>
 void CollocationArc<Density>::factor(const ArcPoint& at, EndsMatrix& condensed) {
   constexpr int F = P + 1;  // n and ℓ
   negative_ = 0;
+  held_count_ = 0;
   Nodes q;
   Eigen::Matrix<double, E, E> carry, s;  // on (first node, current node, n, ℓ), lower triangles
   for (int e = 0; e < elements(); ++e) {
@@ -276,6 +293,9 @@ void CollocationArc<Density>::factor(const ArcPoint& at, EndsMatrix& condensed) 
     node.template block<F, D>(3 * D, 2 * D) = s.template block<F, D>(2 * D, D);
     node.template block<F, F>(3 * D, 3 * D) =
         carry.template block<F, F>(2 * D, 2 * D) + s.template block<F, F>(2 * D, 2 * D);
+    if (e + 1 == elements())
+      hold_node(node, carry.template block<D, D>(D, D).diagonal().cwiseAbs().maxCoeff() +
+                          s.template block<D, D>(0, 0).diagonal().cwiseAbs().maxCoeff());
     node_factors_[e - 1].factor(node);
     negative_ += node_factors_[e - 1].negative_pivots();
     carry = node.template bottomRightCorner<E, E>();

@@ -161,19 +161,6 @@ VectorXd Chain::phase_motion(Purpose purpose, const Numbering& numbering, const 
 
 void Chain::factor(const VectorXd& x, const Loads& loads, const MatrixXd& b_asked, const MatrixXd& c_asked,
                    const MatrixXd& d_asked) {
-  MatrixXd b = b_asked, c = c_asked, d = d_asked;
-  asked_ = d.rows();
-  if (gauges_.phase && !half()) {  // J + g gᵀ, written with one more unknown
-    const VectorXd motion = phase_motion(Purpose::equilibrium, numbering_, x, loads);
-    for (MatrixXd* border : {&b, &c}) {
-      border->conservativeResize(size_, asked_ + 1);
-      border->col(asked_) = motion;
-    }
-    d.conservativeResize(asked_ + 1, asked_ + 1);
-    d.row(asked_).setZero();
-    d.col(asked_).setZero();
-    d(asked_, asked_) = -1.0;
-  }
   std::vector<Placed> placed;
   VectorXd scratch(size_);
   for (int i = 0; i < link_count(); ++i) {
@@ -181,6 +168,26 @@ void Chain::factor(const VectorXd& x, const Loads& loads, const MatrixXd& b_aske
     links_[i].arc->gradient(placed[i].point(), scratch.data() + interior_row_[i], gradients_[i]);
     links_[i].arc->factor(placed[i].point(), condensed_[i]);
   }
+  MatrixXd b = b_asked, c = c_asked, d = d_asked;
+  asked_ = d.rows();
+  const auto add_border = [&](const VectorXd& column, double corner) {
+    const Eigen::Index last = d.rows();
+    b.conservativeResize(size_, last + 1);
+    c.conservativeResize(size_, last + 1);
+    d.conservativeResize(last + 1, last + 1);
+    b.col(last) = c.col(last) = column;
+    d.row(last).setZero();
+    d.col(last).setZero();
+    d(last, last) = corner;
+  };
+  if (gauges_.phase && !half())  // J + g gᵀ
+    add_border(phase_motion(Purpose::equilibrium, numbering_, x, loads), -1.0);
+  for (int i = 0; i < link_count(); ++i)
+    for (const bvp::Held& held : links_[i].arc->held()) {
+      VectorXd column = VectorXd::Zero(size_);
+      column.segment(interior_row_[i] + held.first, held.direction.size()) = held.direction;
+      add_border(column, 1.0);
+    }
   borders_ = d.rows();
   flat_ = is_flat(placed);
   for (Eigen::Index j = 0; j < asked_; ++j)

@@ -68,6 +68,40 @@ MatrixXd Chain::condensed_share(Purpose purpose, const Local& local, const Arc& 
   return local.columns.transpose() * hessian * local.columns;
 }
 
+std::vector<Chain::Border> Chain::add_borders(const Arc& arc, const Local& local,
+                                              const std::vector<Coupled>& coupled, MatrixXd& dense) {
+  std::vector<Border> borders;
+  for (const Coupled& coupling : coupled) {
+    Border border{coupling.row, coupling.along, coupling.along};
+    bvp::EndsVector ends = bvp::EndsVector::Zero(arc.ends());
+    arc.reduce(border.reduced.data(), ends);
+    border.solved = border.reduced;
+    arc.expand(border.solved.data(), bvp::EndsVector::Zero(arc.ends()));
+    const VectorXd column = local.columns.transpose() * ends;
+    for (std::size_t r = 0; r < local.dofs.size(); ++r) {
+      dense(local.dofs[r], border.row) += column(r);
+      dense(border.row, local.dofs[r]) += column(r);
+    }
+    for (const Coupled& other : coupled) dense(other.row, border.row) -= other.along.dot(border.solved);
+    borders.push_back(std::move(border));
+  }
+  return borders;
+}
+
+std::vector<Chain::Coupled> Chain::held_by(const Arc& arc, MatrixXd& dense) {
+  std::vector<Coupled> out;
+  for (const bvp::Held& held : arc.held()) {
+    const Eigen::Index row = dense.rows();
+    out.push_back({row, VectorXd::Zero(arc.interior_tangent())});
+    out.back().along.segment(held.first, held.direction.size()) = held.direction;
+    dense.conservativeResize(row + 1, row + 1);
+    dense.row(row).setZero();
+    dense.col(row).setZero();
+    dense(row, row) = 1.0;
+  }
+  return out;
+}
+
 MatrixXd Chain::condensed_variation(Purpose purpose, const Numbering& numbering, const VectorXd& x,
                                     const Loads& loads) const {
   MatrixXd dense = variation_matrix(purpose, numbering, x, loads);
@@ -78,19 +112,11 @@ MatrixXd Chain::condensed_variation(Purpose purpose, const Numbering& numbering,
     const MatrixXd share = condensed_share(purpose, l, arc, condensed_[i], i);
     for (std::size_t r = 0; r < l.dofs.size(); ++r)
       for (std::size_t s = 0; s < l.dofs.size(); ++s) dense(l.dofs[r], l.dofs[s]) += share(r, s);
-    if (numbering.phase < 0 || arc.interior_nodes() == 0) continue;
-    const VectorXd along =
-        motion.segment(interior_row_[i] + numbering.size - dense_size_, arc.interior_tangent());
-    VectorXd solved = along;
-    bvp::EndsVector ends = bvp::EndsVector::Zero(arc.ends());
-    arc.reduce(solved.data(), ends);
-    const VectorXd column = l.columns.transpose() * ends;
-    for (std::size_t r = 0; r < l.dofs.size(); ++r) {
-      dense(l.dofs[r], numbering.phase) += column(r);
-      dense(numbering.phase, l.dofs[r]) += column(r);
-    }
-    arc.expand(solved.data(), bvp::EndsVector::Zero(arc.ends()));
-    dense(numbering.phase, numbering.phase) -= along.dot(solved);
+    std::vector<Coupled> coupled = held_by(arc, dense);
+    if (numbering.phase >= 0 && arc.interior_nodes() > 0)
+      coupled.push_back({numbering.phase, motion.segment(interior_row_[i] + numbering.size - dense_size_,
+                                                         arc.interior_tangent())});
+    add_borders(arc, l, coupled, dense);
   }
   return 0.5 * (dense + dense.transpose());
 }
@@ -118,7 +144,7 @@ double Chain::sliding_stiffness(const VectorXd& x, const Loads& loads) const {
   if (numbering.slide < 0) return 0.0;
   // K v + Φᵀμ = 0, Φ v = 1: the slide of size one that costs least, and −μ = v·K v. A half chain has half the energy.
   const MatrixXd dense = condensed_variation(purpose, numbering, x, loads);
-  const VectorXd v = dense.partialPivLu().solve(VectorXd::Unit(numbering.size, numbering.slide));
+  const VectorXd v = dense.partialPivLu().solve(VectorXd::Unit(dense.rows(), numbering.slide));
   return -(half() ? 2.0 : 1.0) * v(numbering.slide);
 }
 

@@ -32,6 +32,20 @@ SymmetricFactors::SymmetricFactors(Eigen::MatrixXd a) : factors_(std::move(a)), 
   }
 }
 
+double SymmetricFactors::least_pivot() const {
+  double least = std::numeric_limits<double>::infinity();
+  for (Eigen::Index k = 0; k < factors_.rows(); ++k) {
+    double size = std::abs(factors_(k, k));
+    if (pivot_[k] <= 0) {
+      size = std::sqrt(
+          std::abs(factors_(k, k) * factors_(k + 1, k + 1) - factors_(k + 1, k) * factors_(k + 1, k)));
+      ++k;
+    }
+    least = std::min(least, size);
+  }
+  return least;
+}
+
 void SymmetricFactors::solve(Eigen::VectorXd& rhs) const {
   assert(rhs.size() == factors_.rows());
   const int n = static_cast<int>(factors_.rows()), one = 1;

@@ -13,6 +13,7 @@ class SymmetricFactors {
   /// whose largest eigenvalue belongs to the null vector.
   explicit SymmetricFactors(Eigen::MatrixXd a);
   int negative() const { return negative_; }  ///< eigenvalues below zero
+  double least_pivot() const;                 ///< size of the least pivot
   void solve(Eigen::VectorXd& rhs) const;     ///< in place
 
  private:

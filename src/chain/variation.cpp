@@ -11,6 +11,15 @@ namespace windlass::chain {
 
 using contact::Parity;
 
+namespace {
+
+/// Of the pivot in the middle: the error that Newton's method has left.
+constexpr double nearly_zero = 1e-6;
+/// Of the same: K⁻¹ of less would be all that is left of the other eigenvalues.
+constexpr double rounding = 1e-12;
+
+}  // namespace
+
 Variation::Variation(const Linearisation& at, Parity parity) : at_(at) {
   using Purpose = Chain::Purpose;
   const Chain& chain = at.chain_;
@@ -35,12 +44,18 @@ Variation::Variation(const Linearisation& at, Parity parity) : at_(at) {
   }
   phase_ = numbering.phase;
   if (phase_ >= 0) hold_phase(purpose, numbering, dense);
+  add_borders(dense);
+  unknowns_ = dense.rows();
   dense = (0.5 * (dense + dense.transpose())).eval();
   neutral_ = chain.neutral_turn_ && (!chain.half() || *chain.neutral_turn_ == parity);
   const int but_turn = chain.neutral_turn_ ? negative_but_turn(dense, numbering.location) : 0;
-  if (neutral_) hold_turn(dense);
+  if (neutral_) hold_null(dense, nearly_zero);
   factors_ = std::make_shared<const SymmetricFactors>(dense);
   negative_ += chain.neutral_turn_ ? but_turn : factors_->negative();
+  if (factors_->least_pivot() < rounding * size_of(dense.diagonal())) {
+    hold_null(dense, rounding);
+    factors_ = std::make_shared<const SymmetricFactors>(dense);
+  }
   negative_ -= numbering.constraints;
 }
 
@@ -70,14 +85,18 @@ void Variation::place(Chain::Purpose purpose, const Chain::Numbering& numbering,
   places_.push_back(std::move(here));
 }
 
+double Variation::size_of(const VectorXd& values) const {
+  const bool holds = unknowns_ > static_cast<Eigen::Index>(dense_.size());
+  return std::max(values.size() > 0 ? median(values.cwiseAbs()) : 0.0, holds ? 1.0 : 0.0);
+}
+
 /// D + τ d dᵀ for the dense block D of a singular K, d the dense part of its null vector g: solves K v = f for every f with
 /// gᵀf = 0, as gᵀ times the equation says that d·v = 0.
-void Variation::hold_turn(MatrixXd& dense) {
-  constexpr double zero = 1e-6;  // of the pivot in the middle: the error that Newton's method has left
+void Variation::hold_null(MatrixXd& dense, double zero) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(dense);
   Eigen::Index nearest = 0;
   const double least = eigen.eigenvalues().cwiseAbs().minCoeff(&nearest);
-  const double usual = median(eigen.eigenvalues().cwiseAbs());
+  const double usual = size_of(eigen.eigenvalues());
   if (least > zero * usual) return;
   const VectorXd d = eigen.eigenvectors().col(nearest);
   dense += usual * d * d.transpose();
@@ -94,7 +113,7 @@ void Variation::expand(const VectorXd& y, VectorXd& v) const {
     const Arc& arc = *here.part->arc;
     if (arc.interior_nodes() == 0) continue;
     auto inside = v.segment(here.interior, arc.interior_tangent());
-    if (phase_ >= 0) inside -= y(phase_) * reduced_.segment(here.interior, arc.interior_tangent());
+    for (const Chain::Border& border : here.borders) inside -= y(border.row) * border.reduced;
     share.resize(here.local.dofs.size());
     for (Eigen::Index r = 0; r < share.size(); ++r) share(r) = y(here.local.dofs[r]);
     ends.noalias() = here.local.columns * share;
@@ -116,22 +135,15 @@ void Variation::hold_phase(Chain::Purpose purpose, const Chain::Numbering& numbe
     dense(static_cast<Eigen::Index>(k), phase_) += motion_(dense_[k]);
     dense(phase_, static_cast<Eigen::Index>(k)) += motion_(dense_[k]);
   }
-  reduced_ = condensed_ = motion_;
-  bvp::EndsVector ends;
-  for (const Place& here : places_) {
+}
+
+void Variation::add_borders(MatrixXd& dense) {
+  for (Place& here : places_) {
     const Arc& arc = *here.part->arc;
     if (arc.interior_nodes() == 0) continue;
-    ends.setZero(arc.ends());
-    arc.reduce(reduced_.data() + here.interior, ends);
-    const VectorXd column = here.local.columns.transpose() * ends;
-    for (Eigen::Index r = 0; r < column.size(); ++r) {
-      dense(here.local.dofs[r], phase_) += column(r);
-      dense(phase_, here.local.dofs[r]) += column(r);
-    }
-    auto solved = condensed_.segment(here.interior, arc.interior_tangent());
-    solved = reduced_.segment(here.interior, arc.interior_tangent());
-    arc.expand(solved.data(), bvp::EndsVector::Zero(arc.ends()));
-    dense(phase_, phase_) -= motion_.segment(here.interior, arc.interior_tangent()).dot(solved);
+    std::vector<Chain::Coupled> coupled = Chain::held_by(arc, dense);
+    if (phase_ >= 0) coupled.push_back({phase_, motion_.segment(here.interior, arc.interior_tangent())});
+    here.borders = Chain::add_borders(arc, here.local, coupled, dense);
   }
 }
 
@@ -174,20 +186,18 @@ VectorXd Variation::loads(const Eigen::Ref<const VectorXd>& y) const {
 VectorXd Variation::solve(VectorXd f) const {
   const auto count = static_cast<Eigen::Index>(dense_.size());
   bvp::EndsVector ends;
-  VectorXd share, y(count);
-  double along = 0.0;  // of the phase's motion
+  VectorXd share, y = VectorXd::Zero(unknowns_);
   for (const Place& here : places_) {
     const Arc& arc = *here.part->arc;
     if (arc.interior_nodes() == 0) continue;
     auto inside = f.segment(here.interior, arc.interior_tangent());
-    if (phase_ >= 0) along += condensed_.segment(here.interior, arc.interior_tangent()).dot(inside);
+    for (const Chain::Border& border : here.borders) y(border.row) -= border.solved.dot(inside);
     ends.setZero(arc.ends());
     arc.reduce(inside.data(), ends);
     share.noalias() = here.local.columns.transpose() * ends;
     for (Eigen::Index r = 0; r < share.size(); ++r) f(here.at[r]) += share(r);
   }
-  for (Eigen::Index k = 0; k < count; ++k) y(k) = f(dense_[k]);
-  if (phase_ >= 0) y(phase_) -= along;
+  for (Eigen::Index k = 0; k < count; ++k) y(k) += f(dense_[k]);
   factors_->solve(y);
   expand(y, f);
   return f;

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <Eigen/Sparse>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,13 @@ struct ArcSamples {
   std::vector<int> nodes = {};   ///< indices of the element ends among the N samples
 };
 
+/// An interior configuration that an elimination holds by a spring, as the arc held at its ends alone would not resist:
+/// K̂ = K + d dᵀ. What uses the factors undoes it with one more unknown, K ⇔ [K̂ d; dᵀ 1].
+struct Held {
+  int first = 0;              ///< place of `direction` in the interior's tangent list
+  Eigen::VectorXd direction;  ///< d; tangent
+};
+
 class Arc {
  public:
   virtual ~Arc() = default;
@@ -58,7 +66,8 @@ class Arc {
   /// Gradient of the action. `interior` (interior_tangent numbers) is overwritten.
   virtual void gradient(const ArcPoint& at, double* interior, EndsVector& ends) const = 0;
 
-  /// Assembles and factors the Hessian; returns it condensed to the ends (q_a, q_b, n, ℓ), symmetric part.
+  /// Assembles and factors the Hessian; returns it condensed to the ends (q_a, q_b, n, ℓ), symmetric part. All of it is
+  /// that of K̂ where held() is not empty.
   virtual void factor(const ArcPoint& at, EndsMatrix& condensed) = 0;
 
   /// Forward elimination: on return `rhs_ends` holds the right-hand side of the condensed system.
@@ -71,6 +80,8 @@ class Arc {
   }
   /// Negative pivots among the eliminated interior unknowns at the last factor().
   virtual int negative_pivots() const { return 0; }
+  /// What the last factor() holds.
+  virtual std::span<const Held> held() const { return {}; }
 
   /// Hessian entries of the whole arc (not condensed): interior first, then the ends. For the spectrum and tests.
   virtual void hessian(const ArcPoint& at, std::vector<Eigen::Triplet<double>>& entries) const = 0;

@@ -41,6 +41,7 @@ class CollocationArc final : public Arc {
   void reduce(double* rhs_interior, EndsVector& rhs_ends) const override;
   void expand(double* interior, const EndsVector& solution_ends) const override;
   int negative_pivots() const override { return negative_; }
+  std::span<const Held> held() const override { return {held_.data(), held_count_}; }
   void hessian(const ArcPoint& at, std::vector<Eigen::Triplet<double>>& entries) const override;
   Eigen::VectorXd metric(const ArcPoint& at) const override;
   ArcSamples sample(const ArcPoint& at) const override;
@@ -67,6 +68,9 @@ class CollocationArc final : public Arc {
   /// The same for A = 1, where a product for each pair of Lagrange points is all there is.
   void scalar_hessian(const Nodes& q, const ArcPoint& at, int element, Eigen::MatrixXd& k) const
       requires(A == 1);
+  /// Stiffens the last node, about to be eliminated, where all that resists a motion of it has cancelled.
+  /// @param parts  the size of the terms that its block is a sum of
+  void hold_node(Eigen::MatrixXd& block, double parts);
   int inner() const { return D * (stages() - 1); }  ///< interior unknowns of an element
   /// Column of an element matrix where the unknowns of Lagrange point i start.
   int column(int i) const { return i == 0 ? inner() : i == stages() ? inner() + D : (i - 1) * D; }
@@ -78,6 +82,8 @@ class CollocationArc final : public Arc {
   const CollocationTable& table_;
   std::vector<PartialElimination> element_factors_, node_factors_;
   int negative_ = 0;
+  std::array<Held, D> held_;
+  std::size_t held_count_ = 0;
   // Work space, so that Newton's inner loop allocates nothing.
   mutable Eigen::MatrixXd increments_, weighted_, element_, node_;
 };

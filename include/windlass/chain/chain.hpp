@@ -199,6 +199,21 @@ class Chain {
                        int link, const bvp::EndsVector& gradient, MatrixXd& dense) const;
   void add_locations(const VectorXd& x, MatrixXd& dense) const;
   void add_gauges(const Numbering& numbering, Purpose purpose, const VectorXd& x, MatrixXd& dense) const;
+  /// An unknown of a dense block that acts on an arc's interior.
+  struct Coupled {
+    Eigen::Index row;
+    VectorXd along;  ///< interior_tangent
+  };
+  /// The same, `along` reduced to the arc's ends, and K⁻¹ of it in the interior.
+  struct Border {
+    Eigen::Index row;
+    VectorXd reduced, solved;
+  };
+  /// Adds to a dense block what is left of such unknowns when the arc's interior is condensed.
+  static std::vector<Border> add_borders(const Arc& arc, const Local& local,
+                                         const std::vector<Coupled>& coupled, MatrixXd& dense);
+  /// One more unknown of the dense block for each direction that the arc's factors hold; see bvp::Held.
+  static std::vector<Coupled> held_by(const Arc& arc, MatrixXd& dense);
   /// The dense block of a variation, interiors condensed with the last factorisation; symmetric.
   MatrixXd condensed_variation(Purpose purpose, const Numbering& numbering, const VectorXd& x,
                                const Loads& loads) const;

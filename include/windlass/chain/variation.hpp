@@ -62,7 +62,7 @@ class Variation {
   VectorXd rotations(const VectorXd& v) const;                ///< Wᵀ v
   VectorXd loads(const Eigen::Ref<const VectorXd>& y) const;  ///< W y
   VectorXd solve(VectorXd f) const;                           ///< K⁻¹ f, by the arcs' factors
-  /// The motion g of a neutral turn, K g = 0; empty: there is none. solve() then is for f with gᵀf = 0.
+  /// The motion g of a neutral turn or of another zero eigenvalue, K g = 0; empty: there is none. solve() then is for f with gᵀf = 0.
   const VectorXd& neutral_motion() const { return neutral_motion_; }
   VectorXd product(const VectorXd& v) const;  ///< K v, by the arcs' uncondensed Hessians
 
@@ -78,14 +78,18 @@ class Variation {
   struct Place {
     const Linearisation::Part* part;
     Chain::Local local;
-    std::vector<Eigen::Index> at;        ///< of local.dofs in v
-    Eigen::Index interior, first;        ///< of v, of Wᵀv
-    Eigen::Index left = -1, right = -1;  ///< in v, of a touch's arclength
+    std::vector<Eigen::Index> at;             ///< of local.dofs in v
+    Eigen::Index interior, first;             ///< of v, of Wᵀv
+    Eigen::Index left = -1, right = -1;       ///< in v, of a touch's arclength
+    std::vector<Chain::Border> borders = {};  ///< dense unknowns that act on the interior
   };
   void place(Chain::Purpose purpose, const Chain::Numbering& numbering, int link);
-  void hold_turn(MatrixXd& dense);
+  void hold_null(MatrixXd& dense, double zero);
+  /// Of pivots: the one in the middle, and that of a held direction (bvp::Held) before anything cancels, 1.
+  double size_of(const VectorXd& values) const;
   void expand(const VectorXd& y, VectorXd& v) const;
   void hold_phase(Chain::Purpose purpose, const Chain::Numbering& numbering, MatrixXd& dense);
+  void add_borders(MatrixXd& dense);
   /// Values of v at a place's local unknowns.
   VectorXd gathered(const Place& place, const VectorXd& v) const;
 
@@ -93,11 +97,12 @@ class Variation {
   std::vector<Place> places_;
   std::vector<Eigen::Index> dense_;  ///< places in v of the unknowns of the dense block
   Eigen::Index size_ = 0, points_ = 0, phase_ = -1;
+  Eigen::Index unknowns_ = 0;  ///< of the dense block, with those that v lacks (bvp::Held)
   int negative_ = 0;
   bool neutral_ = false;
   VectorXd neutral_motion_;
-  MatrixXd joints_;                        ///< terms of the dense block that no arc makes
-  VectorXd motion_, reduced_, condensed_;  ///< the phase's row over v; reduced; K⁻¹ of it in the interiors
+  MatrixXd joints_;  ///< terms of the dense block that no arc makes
+  VectorXd motion_;  ///< the phase's row over v
   std::shared_ptr<const class SymmetricFactors> factors_;
 };
 
