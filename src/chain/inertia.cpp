@@ -121,21 +121,25 @@ MatrixXd Chain::condensed_variation(Purpose purpose, const Numbering& numbering,
   return 0.5 * (dense + dense.transpose());
 }
 
-int Chain::index(const VectorXd& x, const Loads& loads, Parity parity) const {
-  if (parity == Parity::odd && !half()) return 0;
+Chain::Inertia Chain::inertia(const VectorXd& x, const Loads& loads, Parity parity) const {
+  if (parity == Parity::odd && !half()) return {};
   const Purpose purpose = parity == Parity::odd ? Purpose::odd : Purpose::even;
   const Numbering numbering = number(purpose);
   const MatrixXd dense = condensed_variation(purpose, numbering, x, loads);
   int negative = 0;
   for (const Link& link : links_) negative += link.arc->negative_pivots();
+  negative -= numbering.constraints;
   // The arc between a clamp and a line along it is about to buckle by itself, see spatial::FreeRodEnd.
   const auto neutral = static_cast<int>(std::count_if(joints_.begin(), joints_.end(), [](const auto& joint) {
     return !joint->fixed_in_variations().empty();
   }));
-  negative += neutral_turn_ ? negative_but_turn(dense, numbering.location)
-              : neutral > 0 ? negative_but_neutral(dense, neutral)
-                            : SymmetricFactors(dense).negative();
-  return negative - numbering.constraints;
+  if (neutral_turn_) return {negative + negative_but_turn(dense, numbering.location), false};
+  if (neutral > 0) return {negative + negative_but_neutral(dense, neutral), false};
+  constexpr double close_to_rounding = 1e-9;  // of the largest entry
+  const SymmetricFactors factors(dense);
+  const bool near =
+      dense.size() > 0 && factors.least_pivot() < close_to_rounding * dense.cwiseAbs().maxCoeff();
+  return {negative + factors.negative(), near};
 }
 
 double Chain::sliding_stiffness(const VectorXd& x, const Loads& loads) const {

@@ -47,6 +47,8 @@ Variation::Variation(const Linearisation& at, Parity parity) : at_(at) {
   add_borders(dense);
   unknowns_ = dense.rows();
   dense = (0.5 * (dense + dense.transpose())).eval();
+  condensed_ = dense;
+  condensed_negative_ = negative_ - numbering.constraints;
   neutral_ = chain.neutral_turn_ && (!chain.half() || *chain.neutral_turn_ == parity);
   const int but_turn = chain.neutral_turn_ ? negative_but_turn(dense, numbering.location) : 0;
   if (neutral_) hold_null(dense, nearly_zero);
@@ -145,6 +147,27 @@ void Variation::add_borders(MatrixXd& dense) {
     if (phase_ >= 0) coupled.push_back({phase_, motion_.segment(here.interior, arc.interior_tangent())});
     here.borders = Chain::add_borders(arc, here.local, coupled, dense);
   }
+}
+
+Variation::Doubt Variation::doubt() const {
+  constexpr double close = 1e-8;  // of the largest: an eigenvalue of the block is not yet one of K
+  constexpr double elimination =
+      16.0;  // times the rounding of a quotient; 4 was seen, in long loops of struts
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(condensed_);
+  const double largest = eigen.eigenvalues().cwiseAbs().maxCoeff();
+  Doubt out{condensed_negative_ + static_cast<int>((eigen.eigenvalues().array() < 0.0).count())};
+  VectorXd motion(size_);
+  for (Eigen::Index k = 0; k < condensed_.rows(); ++k) {
+    const double value = eigen.eigenvalues()(k);
+    if (std::abs(value) > close * largest) continue;
+    motion.setZero();
+    expand(eigen.eigenvectors().col(k), motion);
+    const double weight = rotations(motion).squaredNorm();
+    if (!(std::abs(value) <= elimination * quotient(motion).rounding * weight)) continue;
+    ++out.rounded;
+    out.negative -= value < 0.0;
+  }
+  return out;
 }
 
 VectorXd Variation::gathered(const Place& here, const VectorXd& v) const {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "windlass/chain/singular_matrix.hpp"
+#include "windlass/chain/variation.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/equilibrium/start.hpp"
 #include "windlass/obstacle/scene_obstacles.hpp"
@@ -162,14 +163,14 @@ int RodProblem::index(const Vector& x, const Vector& p) {
   // Where a contact carries nothing, or an arc has no length left, the second variation is not that of a rod held by
   // these contacts: the count of the last sound point stands until the event is located.
   if (index_ >= 0 && degenerate(x, at)) return index_;
-  return index_ = count(x, p, contact::Parity::even);
+  return index_ = count(x, p, contact::Parity::even, index_);
 }
 
 int RodProblem::breaking_index(const Vector& x, const Vector& p) {
   if (!topology_.half) return -1;
   const Loads at = loads(p);
   if (breaking_index_ >= 0 && degenerate(x, at)) return breaking_index_;
-  return breaking_index_ = count(x, p, contact::Parity::odd);
+  return breaking_index_ = count(x, p, contact::Parity::odd, breaking_index_);
 }
 
 std::optional<continuation::Unrestricted> RodProblem::unrestricted(const Vector& x, const Vector& p) {
@@ -194,10 +195,21 @@ bool RodProblem::degenerate(const Vector& x, const Loads& at) const {
   return false;
 }
 
-int RodProblem::count(const Vector& x, const Vector& p, contact::Parity parity) {
-  if (counts_.x.size() == 0 || counts_.x != x || counts_.p != p) counts_ = {x, p, {-1, -1}};
-  int& known = counts_.negative[parity == contact::Parity::even ? 0 : 1];
-  return known >= 0 ? known : known = chain_->index(x, loads(p), parity);
+int RodProblem::count(const Vector& x, const Vector& p, contact::Parity parity, int last) {
+  if (counts_.x.size() == 0 || counts_.x != x || counts_.p != p) counts_ = {x, p};
+  const int at = parity == contact::Parity::even ? 0 : 1;
+  int &negative = counts_.negative[at], &rounded = counts_.rounded[at];
+  if (negative < 0) {
+    const Loads loads = this->loads(p);
+    const chain::Chain::Inertia inertia = chain_->inertia(x, loads, parity);
+    negative = inertia.negative;
+    if (inertia.near_rounding) {
+      const chain::Linearisation linearised(*chain_, rod_, x, loads);
+      const chain::Variation::Doubt doubt = chain::Variation(linearised, parity).doubt();
+      negative = doubt.negative, rounded = doubt.rounded;
+    }
+  }
+  return std::clamp(last, negative, negative + rounded);
 }
 
 int RodProblem::total_index(const Vector& x, const Vector& p) {

@@ -131,7 +131,15 @@ class Chain {
 
   /// Number of negative directions of the second variation on the active contacts, by inertia of the factorisation
   /// made by the last factor() at (x, loads); `odd` counts the variations of the other parity at a symmetry point.
-  int index(const VectorXd& x, const Loads& loads, contact::Parity parity) const;
+  int index(const VectorXd& x, const Loads& loads, contact::Parity parity) const {
+    return inertia(x, loads, parity).negative;
+  }
+  struct Inertia {
+    int negative = 0;
+    bool near_rounding =
+        false;  ///< a pivot is so small that rounding may have made its sign; see Variation::doubt
+  };
+  Inertia inertia(const VectorXd& x, const Loads& loads, contact::Parity parity) const;
 
   /// Second derivative of the energy with a slide δ of the whole rod along itself, everything else at rest under its
   /// contacts: d²Π/dδ² [EI/ρ³], from the last factor() at (x, loads). Zero without a slide to hold.

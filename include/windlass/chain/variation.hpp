@@ -73,6 +73,12 @@ class Variation {
   };
   Quotient quotient(const VectorXd& v) const;
 
+  /// Negative eigenvalues but those that rounding may have made, and how many of these there are.
+  struct Doubt {
+    int negative = 0, rounded = 0;
+  };
+  Doubt doubt() const;
+
  private:
   /// One arc's place in v, in the dense block and in Wᵀv.
   struct Place {
@@ -101,8 +107,10 @@ class Variation {
   int negative_ = 0;
   bool neutral_ = false;
   VectorXd neutral_motion_;
-  MatrixXd joints_;  ///< terms of the dense block that no arc makes
-  VectorXd motion_;  ///< the phase's row over v
+  MatrixXd condensed_;          ///< dense block, before anything is held in it
+  int condensed_negative_ = 0;  ///< negative eigenvalues that it adds to
+  MatrixXd joints_;             ///< terms of the dense block that no arc makes
+  VectorXd motion_;             ///< the phase's row over v
   std::shared_ptr<const class SymmetricFactors> factors_;
 };
 

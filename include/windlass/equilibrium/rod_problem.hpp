@@ -121,7 +121,8 @@ class RodProblem final : public continuation::Problem {
  private:
   void rebuild();
   /// Negative directions of one parity; counted once a state. The last factorisation, if it was not, was made there.
-  int count(const Vector& x, const Vector& p, contact::Parity parity);
+  /// Of eigenvalues whose sign rounding has made as many are counted as brings the count closest to `last`; −1: none.
+  int count(const Vector& x, const Vector& p, contact::Parity parity, int last = -1);
   int iterate(Vector& x, const Vector& p, int most);  ///< polish(), which may throw
   bool degenerate(const Vector& x, const contact::Loads& at) const;
   /// Errors divided by what is allowed: of the target by the tolerance, of the nodes by the certificate's level.
@@ -148,6 +149,7 @@ class RodProblem final : public continuation::Problem {
   struct Counts {
     Vector x, p;                             ///< where; empty: nowhere
     std::array<int, 2> negative = {-1, -1};  ///< even, odd; −1: not counted
+    std::array<int, 2> rounded = {0, 0};     ///< more may be: eigenvalues whose sign is rounding's
   } counts_;
   int index_ = -1, breaking_index_ = -1;  ///< last counts at a sound point
   double last_error_ = 0.0;               ///< relative, of the target
