@@ -101,6 +101,10 @@ Arms switch_branch(const Point& branch_point, const Options& options) {
         arm = start_arm(branch_point, direction, part * options.step, options, failure);
         if (arm) break;
       }
+      if (!arm && !failure.inadmissible) {
+        const std::string held = branch_point.problem->unsettled(branch_point.x, direction.x);
+        if (!held.empty()) failure = {held, true};
+      }
       if (!arm) {
         auto& list = failure.inadmissible ? arms.inadmissible : arms.failures;
         list.push_back("direction " + std::to_string(i + 1) + (sign > 0 ? " (+): " : " (-): ") +

@@ -58,6 +58,11 @@ std::optional<Transition> Problem::transition(std::size_t, const Vector&, const 
 
 std::optional<Vector> Problem::adapt(const Vector&, const Vector&) { return std::nullopt; }
 
+std::string Problem::unsettled(const Vector& x, const Vector& dx) const {
+  (void)x, (void)dx;
+  return {};
+}
+
 bool Problem::settle(Vector&, const Vector&) { return false; }
 
 Vector Problem::fingerprint(const Vector& x, const Vector&) { return x; }

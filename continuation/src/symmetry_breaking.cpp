@@ -39,10 +39,12 @@ std::optional<Piece> in_the_large(Segment& segment, const Sample& lo, const Samp
   return std::nullopt;
 }
 
-/// Adds what the piece holds, placed on the segment; false if nothing in it was polished.
-bool add(Segment& segment, const Sample& lo, const Sample& hi, Piece piece, std::vector<Located>& found) {
+/// Adds what the piece holds, placed on the segment; false if there is nothing in it, or nothing polished where that is
+/// asked.
+bool add(Segment& segment, const Sample& lo, const Sample& hi, Piece piece, bool polished,
+         std::vector<Located>& found) {
   const double from = segment.parameter(lo), to = segment.parameter(hi);
-  std::erase_if(piece.found, [](const Located& located) { return !located.branch_point; });
+  if (polished) std::erase_if(piece.found, [](const Located& located) { return !located.branch_point; });
   for (Located& located : piece.found) {
     const double part = std::clamp((segment.parameter(located.sample) - from) / (to - from), 0.0, 1.0);
     located.s = lo.s + part * (hi.s - lo.s);
@@ -91,7 +93,7 @@ void search(Segment& segment, const Sample& lo, const Sample& hi, int depth,
   std::string why;
   if (depth >= first && (depth - first) % between == 0 && alone) {
     std::optional<Piece> piece = in_the_large(segment, lo, hi, why);
-    if (piece && add(segment, lo, hi, std::move(*piece), found)) return;
+    if (piece && add(segment, lo, hi, std::move(*piece), true, found)) return;
   }
   const double smallest =
       segment.options().location_tolerance *
@@ -109,8 +111,12 @@ void search(Segment& segment, const Sample& lo, const Sample& hi, int depth,
     // A count that changes over a stretch that cannot be solved (next to an event, say) is no point.
     constexpr double narrow = 1e-5;
     if (apart <= narrow * std::max(1.0, std::abs(segment.parameter(lo))) &&
-        std::none_of(restricted.begin(), restricted.end(), here))
+        std::none_of(restricted.begin(), restricted.end(), here)) {
+      // Its kernel is the unrestricted problem's, polished or not.
+      std::optional<Piece> piece = alone ? in_the_large(segment, lo, hi, why) : std::nullopt;
+      if (piece && add(segment, lo, hi, std::move(*piece), false, found)) return;
       found.push_back(unpolished(segment, lo, hi, std::abs(hi.breaking_index - lo.breaking_index), why));
+    }
     return;
   }
   search(segment, lo, *middle, depth + 1, restricted, found);

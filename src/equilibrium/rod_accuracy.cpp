@@ -194,6 +194,14 @@ bool RodProblem::settle(Vector& x, const Vector& p) {
   throw std::domain_error("the rod slides along itself: nothing balances it here");
 }
 
+std::string RodProblem::unsettled(const Vector& x, const Vector& dx) const {
+  (void)x;
+  constexpr double nothing = 1e-8;  // what rounding leaves of a force in a mode of unit size
+  if (!chain_->holds_slide() || std::abs(dx(chain_->slide_row())) < nothing * dx.cwiseAbs().maxCoeff())
+    return {};
+  return "the rod would have to be held against sliding along itself";
+}
+
 double RodProblem::sliding_stiffness(const Vector& x, const Vector& p) {
   total_index(x, p);  // leaves the factorisation
   return chain_->sliding_stiffness(x, loads(p));

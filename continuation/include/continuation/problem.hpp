@@ -132,6 +132,9 @@ class Problem {
   /// method, to where nothing has to hold it. Returns whether x was moved; the default has no such directions.
   /// @throws std::domain_error where there is no such place.
   virtual bool settle(Vector& x, const Vector& p);
+  /// Why x moved by dx would need what settle() takes away; empty: it would not. Along such a direction of a singular
+  /// Jacobian no branch leaves.
+  virtual std::string unsettled(const Vector& x, const Vector& dx) const;
 
   /// Numbers that do not depend on discretisation, nor on which of two mirror images x is: two states with
   /// equal fingerprints are the same solution (up to mirror image). The default is x itself.

@@ -80,6 +80,8 @@ class RodProblem final : public continuation::Problem {
   /// Lets a full chain slide along itself until nothing holds it: Newton in the gauge's place c for λ(c) = 0, which stays
   /// well conditioned where sliding costs next to nothing. Done when λ is below 1e-10 of the pulls.
   bool settle(Vector& x, const Vector& p) override;
+  /// A mode that is soft only while the rod is held against sliding along itself: see Chain::Gauges.
+  std::string unsettled(const Vector& x, const Vector& dx) const override;
   /// d²Π/dδ² of a slide of the whole rod along itself; see Chain::sliding_stiffness.
   double sliding_stiffness(const Vector& x, const Vector& p);
 
