@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 
 #include "continuation/detect.hpp"
@@ -39,13 +40,13 @@ std::optional<Piece> in_the_large(Segment& segment, const Sample& lo, const Samp
   return std::nullopt;
 }
 
-/// Adds what the piece holds, placed on the segment; false if there is nothing in it, or nothing polished where that is
-/// asked.
-bool add(Segment& segment, const Sample& lo, const Sample& hi, Piece piece, bool polished,
+bool is_polished(const Located& located) { return located.branch_point.has_value(); }
+
+/// Adds what the piece holds, placed on the segment.
+void add(Segment& segment, const Sample& lo, const Sample& hi, const Piece& piece,
          std::vector<Located>& found) {
   const double from = segment.parameter(lo), to = segment.parameter(hi);
-  if (polished) std::erase_if(piece.found, [](const Located& located) { return !located.branch_point; });
-  for (Located& located : piece.found) {
+  for (Located located : piece.found) {
     const double part = std::clamp((segment.parameter(located.sample) - from) / (to - from), 0.0, 1.0);
     located.s = lo.s + part * (hi.s - lo.s);
     located.lo = lo.s;
@@ -53,7 +54,6 @@ bool add(Segment& segment, const Sample& lo, const Sample& hi, Piece piece, bool
     located.problem = piece.problem;
     found.push_back(std::move(located));
   }
-  return !piece.found.empty();
 }
 
 /// A branch point of the restricted problem inside the bracket, and samples on both sides as close as Newton's method goes.
@@ -76,14 +76,16 @@ Together together(Segment& segment, const Sample& lo, const Sample& hi,
   return {};
 }
 
+/// @param around  the narrowest piece around this interval that holds a point, which could not be polished
 void search(Segment& segment, const Sample& lo, const Sample& hi, int depth,
-            const std::vector<Located>& restricted, std::vector<Located>& found) {
+            const std::vector<Located>& restricted, std::optional<Piece> around,
+            std::vector<Located>& found) {
   if (lo.breaking_index < 0 || hi.breaking_index < 0 || lo.breaking_index == hi.breaking_index) return;
   if (const Together one = together(segment, lo, hi, restricted); one.point) {
     // Modes of both kinds that come in at once are turned into each other by a symmetry of the problem, as buckling in
     // all planes of an isotropic rod: one point, and the arms that keep the restriction stand for all.
-    search(segment, lo, *one.below, depth + 1, restricted, found);
-    search(segment, *one.above, hi, depth + 1, restricted, found);
+    search(segment, lo, *one.below, depth + 1, restricted, around, found);
+    search(segment, *one.above, hi, depth + 1, restricted, around, found);
     return;
   }
   // The unrestricted problem costs a solve of twice the size to enter: halved first, where that costs two
@@ -92,8 +94,13 @@ void search(Segment& segment, const Sample& lo, const Sample& hi, int depth,
   const bool alone = lo.index == hi.index && lo.tangent.p * hi.tangent.p > 0.0;
   std::string why;
   if (depth >= first && (depth - first) % between == 0 && alone) {
-    std::optional<Piece> piece = in_the_large(segment, lo, hi, why);
-    if (piece && add(segment, lo, hi, std::move(*piece), true, found)) return;
+    if (std::optional<Piece> piece = in_the_large(segment, lo, hi, why); piece && !piece->found.empty()) {
+      around = std::move(piece);
+      if (std::any_of(around->found.begin(), around->found.end(), is_polished)) {
+        std::erase_if(around->found, std::not_fn(is_polished));
+        return add(segment, lo, hi, *around, found);
+      }
+    }
   }
   const double smallest =
       segment.options().location_tolerance *
@@ -113,14 +120,13 @@ void search(Segment& segment, const Sample& lo, const Sample& hi, int depth,
     if (apart <= narrow * std::max(1.0, std::abs(segment.parameter(lo))) &&
         std::none_of(restricted.begin(), restricted.end(), here)) {
       // Its kernel is the unrestricted problem's, polished or not.
-      std::optional<Piece> piece = alone ? in_the_large(segment, lo, hi, why) : std::nullopt;
-      if (piece && add(segment, lo, hi, std::move(*piece), false, found)) return;
+      if (around) return add(segment, lo, hi, *around, found);
       found.push_back(unpolished(segment, lo, hi, std::abs(hi.breaking_index - lo.breaking_index), why));
     }
     return;
   }
-  search(segment, lo, *middle, depth + 1, restricted, found);
-  search(segment, *middle, hi, depth + 1, restricted, found);
+  search(segment, lo, *middle, depth + 1, restricted, around, found);
+  search(segment, *middle, hi, depth + 1, restricted, around, found);
   // Halving made the change vanish: the count at one end was roundoff close to an eigenvalue's touch.
 }
 
@@ -129,7 +135,7 @@ void search(Segment& segment, const Sample& lo, const Sample& hi, int depth,
 std::vector<Located> locate_symmetry_breaking(Segment& segment, const Sample& lo, const Sample& hi,
                                               const std::vector<Located>& restricted) {
   std::vector<Located> found;
-  search(segment, lo, hi, 0, restricted, found);
+  search(segment, lo, hi, 0, restricted, std::nullopt, found);
   return found;
 }
 
