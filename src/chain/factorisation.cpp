@@ -225,8 +225,7 @@ void Chain::factor(const VectorXd& x, const Loads& loads, const MatrixXd& b_aske
   }
   if (!dense.allFinite()) throw std::domain_error("the chain's matrix is not finite");
   if (dense.rows() > 0) dense_.compute(dense);
-  const bool may_turn = neutral_turn_ && (!half() || *neutral_turn_ == Parity::even);
-  if (may_turn && dense.rows() > 0 && is_singular(dense_))
+  if (may_turn(Parity::even, x, loads) && dense.rows() > 0 && is_singular(dense_))
     dense_.compute(without_turn(dense, numbering_.location));
   int negative = 0;
   for (const Link& link : links_) negative += link.arc->negative_pivots();

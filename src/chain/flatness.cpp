@@ -63,6 +63,13 @@ bool Chain::is_flat(const std::vector<Placed>& placed) const {
   return true;
 }
 
+bool Chain::may_turn(contact::Parity parity, const VectorXd& x, const Loads& loads) const {
+  if (!neutral_turn_ || (half() && *neutral_turn_ != parity)) return false;
+  std::vector<Placed> placed;
+  for (int i = 0; i < link_count(); ++i) placed.push_back(place(x, loads, i));
+  return is_flat(placed);
+}
+
 double Chain::outside(const Eigen::Ref<const VectorXd>& f) const {
   double largest = 0.0;
   for (const Eigen::Index at : outside_) largest = std::max(largest, std::abs(f(at)));

@@ -133,7 +133,7 @@ Chain::Inertia Chain::inertia(const VectorXd& x, const Loads& loads, Parity pari
   const auto neutral = static_cast<int>(std::count_if(joints_.begin(), joints_.end(), [](const auto& joint) {
     return !joint->fixed_in_variations().empty();
   }));
-  if (neutral_turn_) return {negative + negative_but_turn(dense, numbering.location), false};
+  if (may_turn(parity, x, loads)) return {negative + negative_but_turn(dense, numbering.location), false};
   if (neutral > 0) return {negative + negative_but_neutral(dense, neutral), false};
   constexpr double close_to_rounding = 1e-9;  // of the largest entry
   const SymmetricFactors factors(dense);

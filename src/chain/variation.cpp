@@ -49,11 +49,11 @@ Variation::Variation(const Linearisation& at, Parity parity) : at_(at) {
   dense = (0.5 * (dense + dense.transpose())).eval();
   condensed_ = dense;
   condensed_negative_ = negative_ - numbering.constraints;
-  neutral_ = chain.neutral_turn_ && (!chain.half() || *chain.neutral_turn_ == parity);
-  const int but_turn = chain.neutral_turn_ ? negative_but_turn(dense, numbering.location) : 0;
+  neutral_ = chain.may_turn(parity, at.x_, at.loads_);
+  const int but_turn = neutral_ ? negative_but_turn(dense, numbering.location) : 0;
   if (neutral_) hold_null(dense, nearly_zero);
   factors_ = std::make_shared<const SymmetricFactors>(dense);
-  negative_ += chain.neutral_turn_ ? but_turn : factors_->negative();
+  negative_ += neutral_ ? but_turn : factors_->negative();
   if (factors_->least_pivot() < rounding * size_of(dense.diagonal())) {
     hold_null(dense, rounding);
     factors_ = std::make_shared<const SymmetricFactors>(dense);

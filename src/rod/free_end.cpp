@@ -48,7 +48,8 @@ FreeEnd free_end(double u, double q) {
     at = time_with_slopes(std::exp(log_ratio), q);
     const double step = (u - at.u) / at.by_log_ratio;
     log_ratio = log_ratio + step < 0.0 ? log_ratio + step : 0.5 * log_ratio;
-    if (std::abs(step) < 1e-9) break;  // squared by the last step
+    // The slopes are those before the step, and change by step/log² or so: short tails have a small log ρ.
+    if (std::abs(step) < 1e-12 * std::abs(log_ratio)) break;
   }
   const double ratio = std::exp(log_ratio);
   return {ratio, at.by_log_ratio, -at.by_q * ratio / at.by_log_ratio, ratio / at.by_log_ratio};

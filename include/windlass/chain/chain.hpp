@@ -248,6 +248,8 @@ class Chain {
   /// Places in an increment that move a flat rod out of its plane.
   std::vector<Eigen::Index> out_of_plane() const;
   bool is_flat(const std::vector<Placed>& placed) const;
+  /// May a variation of this parity be a turn of the whole rod that costs nothing? Only while the rod is flat.
+  bool may_turn(contact::Parity parity, const VectorXd& x, const Loads& loads) const;
   /// Largest entry of a vector at those places.
   double outside(const Eigen::Ref<const VectorXd>& f) const;
 

@@ -166,6 +166,31 @@ BOOST_AUTO_TEST_CASE(a_free_tail_obeys_the_pendulum_and_ends_without_moment) {
   BOOST_TEST(tail.energy(at) == energy, boost::test_tools::tolerance(2e-3));  // m² by parabolas, h <= 0.13
 }
 
+BOOST_AUTO_TEST_CASE(a_short_tails_samples_lie_on_its_own_curve) {
+  // Nearly at right angles to the pull, where way made along it is all cancellation: the samples' places against
+  // ∫ (cos θ, sin θ) ds over the formula's own angles, by Simpson's rule on 512 intervals. The
+  // formula cancels by 1 − ρ, 2e-4 at least here: 1e-16 over that, a few times.
+  const Eigen::Vector2d n(1.0, 0.0);
+  for (const double length : {0.05, 0.16, 0.5, 2.0})
+    for (const double theta : {0.3, 1.5, 1.55, 2.5}) {
+      TailArc tail(2, 1.0, true, TailArc::End::moment_free);
+      const ArcPoint at{&theta, &theta, nullptr, n.data(), length};
+      const auto samples = tail.sample(at);
+      for (const Eigen::Index k : {1, 4, 16}) {
+        constexpr int parts = 512;
+        const double step = samples.sigma(k) * length / parts;
+        const Eigen::VectorXd distances = Eigen::VectorXd::LinSpaced(parts + 1, 0.0, parts * step);
+        const Eigen::MatrixXd angles = tail.configurations(at, distances);
+        Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+        for (int i = 0; i <= parts; ++i) {
+          const double weight = (i == 0 || i == parts ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) * step / 3.0;
+          sum += weight * Eigen::Vector2d(std::cos(angles(0, i)), std::sin(angles(0, i)));
+        }
+        BOOST_TEST((samples.displacement.col(k) - sum).norm() < 2e-11);
+      }
+    }
+}
+
 BOOST_AUTO_TEST_CASE(a_long_free_tail_is_the_infinite_one) {
   const double theta[1] = {1.9};
   const Eigen::Vector2d n(0.8, -0.4);
