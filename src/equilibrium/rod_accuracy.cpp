@@ -121,10 +121,14 @@ std::vector<chain::ArcMesh> RodProblem::new_meshes(const Vector& x, const Loads&
 double RodProblem::excess(const Vector& x, const Vector& p) {
   const double goal = scene_.model.tolerance;
   const double error = error_estimate(x, p);
+  const double nodal = nodal_error_ > 3.0 * nodal_floor_ ? nodal_error_ : 0.0;
+  return std::max(error / goal, nodal / nodal_goal());
+}
+
+double RodProblem::nodal_goal() const {
   // A strut is as long as its unit, so its strains, and with them the moments, are some ten times its rotations.
   const double share = rod_.strut ? 0.03 : 0.3;
-  const double nodal = nodal_error_ > 3.0 * nodal_floor_ ? nodal_error_ : 0.0;
-  return std::max(error / goal, nodal / (share * std::min(goal, certificate_level)));
+  return share * std::min(scene_.model.tolerance, certificate_level);
 }
 
 Vector RodProblem::refine(Vector x, const Vector& p, int rounds) {
@@ -160,7 +164,8 @@ std::optional<Vector> RodProblem::moved_to(std::vector<chain::ArcMesh> meshes, c
   Vector fresh = chain::transfer_state(*old, *chain_, x, loads(p));
   if (polish(fresh, p) >= 0) {
     const double too_large = excess(fresh, p);
-    if (within && too_large <= 1.0) return fresh;
+    // What rounding is forgiven no coarser mesh may add.
+    if (within && too_large <= 1.0 && nodal_error_ <= std::max(nodal_goal(), old_nodal)) return fresh;
     if (!within && (last_error_ > scene_.model.tolerance || nodal_error_ < 0.3 * old_nodal)) return fresh;
     if (!within) nodal_floor_ = std::max(nodal_error_, old_nodal);  // rounding: no mesh helps
   }
@@ -216,6 +221,8 @@ std::optional<Vector> RodProblem::adapt(const Vector& x, const Vector& p) {
 std::optional<Vector> RodProblem::remeshed_where_needed(const Vector& x, const Vector& p) {
   // A mesh far finer than needed costs as much as one too coarse: shed when a quarter of it or more is superfluous.
   constexpr double superfluous = 1e-3, worthwhile = 0.75;
+  constexpr double forgotten = 0.8;  // a point: near an event rounding may be large, and soon is not
+  nodal_floor_ *= forgotten;
   const double too_large = excess(x, p);
   // A straight strut is exact on any mesh, which says nothing about its modes: their loads need the mesh it has.
   const bool coarsen = too_large < superfluous && last_error_ > 1.5 * rounding;

@@ -129,6 +129,7 @@ class RodProblem final : public continuation::Problem {
   bool degenerate(const Vector& x, const contact::Loads& at) const;
   /// Errors divided by what is allowed: of the target by the tolerance, of the nodes by the certificate's level.
   double excess(const Vector& x, const Vector& p);
+  double nodal_goal() const;
   std::vector<chain::ArcMesh> new_meshes(const Vector& x, const contact::Loads& loads, double growth) const;
   /// The state on `meshes`, which replace the present ones; nullopt, and nothing is changed, where Newton fails or,
   /// with `within`, the errors there are too large.
