@@ -47,6 +47,7 @@ Variation::Variation(const Linearisation& at, Parity parity) : at_(at) {
   add_borders(dense);
   unknowns_ = dense.rows();
   dense = (0.5 * (dense + dense.transpose())).eval();
+  locations_ = numbering.location;
   condensed_ = dense;
   condensed_negative_ = negative_ - numbering.constraints;
   neutral_ = chain.may_turn(parity, at.x_, at.loads_);
@@ -160,6 +161,13 @@ Variation::Doubt Variation::doubt() const {
   for (Eigen::Index k = 0; k < condensed_.rows(); ++k) {
     const double value = eigen.eigenvalues()(k);
     if (std::abs(value) > close * largest) continue;
+    // A touch that shifts, and with it its place on the obstacle and its frame: the sign is its force's, which has an
+    // event of its own.
+    constexpr double mostly = 0.2;
+    double shift = 0.0;
+    for (const Eigen::Index row : locations_)
+      if (row >= 0) shift += std::pow(eigen.eigenvectors()(row, k), 2);
+    if (shift > mostly) continue;
     motion.setZero();
     expand(eigen.eigenvectors().col(k), motion);
     const double weight = rotations(motion).squaredNorm();
