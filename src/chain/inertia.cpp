@@ -56,6 +56,18 @@ MatrixXd Chain::variation_matrix(Purpose purpose, const Numbering& numbering, co
   for (int i = 0; i < link_count(); ++i)
     add_joint_terms(purpose, numbering, x, loads, i, gradients_[i], dense);
   add_gauges(numbering, purpose, x, dense);
+  // A touch costs −½ F g'' δs² as it shifts: it is where the gap is least. One that carries nothing, as where it opens, costs
+  // nothing, and its sign would be rounding's.
+  constexpr double nothing = 1e-7;  // [EI/ρ²], [EI/ρ³]
+  for (int j = 0; j < joint_count(); ++j) {
+    const Eigen::Index row = numbering.location[j];
+    if (row < 0) continue;
+    const VectorXd normal = joints_[j]->chart(coordinates(x, j)).normal;
+    VectorXd jump = -force(x, loads, j);
+    if (j > 0) jump += force(x, loads, j - 1);
+    const double carried = jump.dot(normal.head(jump.size()));
+    if (carried < nothing) dense(row, row) -= nothing;
+  }
   return dense;
 }
 
