@@ -123,9 +123,15 @@ ContactEvent suction(const Piece& line, const ContactEvent& pressure) {
   const double end = line.s(line.s.size() - 1);
   const bool mirrored = event.from < line.s(0);  // about the mid-point of a half chain
   const bool beside_touch = event.to >= end || (!mirrored && event.from <= line.s(0));
-  event.value = !pressure.passes
-                    ? 1.0
-                    : 1.0 - (event.to - event.from) / (beside_touch ? carried_beside_touch : carried_inside);
+  double carried = beside_touch ? carried_beside_touch : carried_inside;
+  if (!beside_touch) {
+    // Close to an edge it is carried until it reaches the edge, so that no line, or next to none, is left beyond it.
+    const double middle = 0.5 * (event.from + event.to);
+    const double edge = mirrored ? end - middle : std::min(end - middle, middle - line.s(0));
+    if (edge < 1.5 * 0.5 * std::sqrt(5.0) * carried)
+      carried = std::max(2.0 * edge / std::sqrt(5.0), carried_beside_touch);
+  }
+  event.value = !pressure.passes ? 1.0 : 1.0 - (event.to - event.from) / carried;
   return event;
 }
 

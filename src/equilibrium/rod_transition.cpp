@@ -130,8 +130,13 @@ void adjust_length(Entry& entry, int link) {
 /// @param as_long  as it is; else brought to the length that arcs are entered with
 std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, int depth, bool as_long) {
   settle_shape(*entry.problem, entry.x, entry.p, opened);
-  if (!solve_at_length(*entry.problem, entry.x, entry.p, opened.front(), length_of(entry, opened.front())))
-    return std::nullopt;
+  const double length = length_of(entry, opened.front());
+  if (!solve_at_length(*entry.problem, entry.x, entry.p, opened.front(), length)) return std::nullopt;
+  // What is admissible is judged on a mesh that is fine enough: events that only a finer one shows would be passed unseen.
+  if (const std::optional<Vector> finer = entry.problem->adapt(entry.x, entry.p)) {
+    entry.x = *finer;
+    if (!solve_at_length(*entry.problem, entry.x, entry.p, opened.front(), length)) return std::nullopt;
+  }
   const chain::Profile shape = entry.problem->profile(entry.x, entry.p);
   const Topology& topology = entry.problem->topology();
   const std::vector<ContactEvent> events = contact_events(shape, topology);
