@@ -9,23 +9,26 @@ namespace windlass::chain {
 using contact::JointKind;
 using contact::Parity;
 
-namespace {
-
-/// Number of eigenvalues below zero of a symmetric matrix where as many eigenvalues as `neutral` are zero but for rounding, which do not count.
-int negative_but_neutral(const MatrixXd& dense, int neutral) {
-  constexpr double rounding =
-      1e-7;  // of the middle one: states are good to 1e-10, and the arcs' own singularity adds to it
-  VectorXd values = Eigen::SelfAdjointEigenSolver<MatrixXd>(dense, Eigen::EigenvaluesOnly).eigenvalues();
-  std::sort(values.begin(), values.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
-  // An arc that is singular by itself leaves an entry as large as 1e10, and its rounding to the others.
-  const double zero =
-      rounding * std::abs(values(values.size() / 2)) + 1e-14 * std::abs(values(values.size() - 1));
-  int negative = 0;
-  for (Eigen::Index k = 0; k < values.size(); ++k) negative += values(k) < (k < neutral ? -zero : 0.0);
-  return negative;
+bool Chain::neutral(int link) const {
+  return !joints_[link]->fixed_in_variations().empty() || !joints_[link + 1]->fixed_in_variations().empty();
 }
 
-}  // namespace
+std::unique_ptr<Arc> Chain::shortened(const VectorXd& x, const Loads& loads, int link,
+                                      bvp::EndsMatrix& condensed) const {
+  std::unique_ptr<Arc> arc = links_[link].arc->remeshed(links_[link].arc->mesh(), links_[link].arc->stages());
+  const Placed placed = place(x, loads, link);
+  bvp::ArcPoint point = placed.point();
+  point.length *= 1.0 - shortened_by;
+  arc->factor(point, condensed);
+  return arc;
+}
+
+double Chain::neutral_size(const VectorXd& x, const Loads& loads) const {
+  double largest = 0.0;
+  for (int i = 0; i < link_count(); ++i)
+    if (neutral(i)) largest = std::max(largest, 4.0 * shortened_by * force(x, loads, i).norm());
+  return largest;
+}
 
 void Chain::add_gauges(const Numbering& numbering, Purpose purpose, const VectorXd& x,
                        MatrixXd& dense) const {
@@ -69,13 +72,13 @@ MatrixXd Chain::condensed_share(Purpose purpose, const Local& local, const Arc& 
 }
 
 MatrixXd Chain::condensed_variation(Purpose purpose, const Numbering& numbering, const VectorXd& x,
-                                    const Loads& loads) const {
+                                    const Loads& loads, const std::vector<bvp::EndsMatrix>& condensed) const {
   MatrixXd dense = variation_matrix(purpose, numbering, x, loads);
   const VectorXd motion = numbering.phase >= 0 ? phase_motion(purpose, numbering, x, loads) : VectorXd();
   for (int i = 0; i < link_count(); ++i) {
     const Arc& arc = *links_[i].arc;
     const Local l = local(purpose, numbering, x, loads, i);
-    const MatrixXd share = condensed_share(purpose, l, arc, condensed_[i], i);
+    const MatrixXd share = condensed_share(purpose, l, arc, condensed[i], i);
     for (std::size_t r = 0; r < l.dofs.size(); ++r)
       for (std::size_t s = 0; s < l.dofs.size(); ++s) dense(l.dofs[r], l.dofs[s]) += share(r, s);
     if (numbering.phase < 0 || arc.interior_nodes() == 0) continue;
@@ -99,16 +102,14 @@ int Chain::index(const VectorXd& x, const Loads& loads, Parity parity) const {
   if (parity == Parity::odd && !half()) return 0;
   const Purpose purpose = parity == Parity::odd ? Purpose::odd : Purpose::even;
   const Numbering numbering = number(purpose);
-  const MatrixXd dense = condensed_variation(purpose, numbering, x, loads);
+  std::vector<bvp::EndsMatrix> condensed = condensed_;
   int negative = 0;
-  for (const Link& link : links_) negative += link.arc->negative_pivots();
-  // The arc between a clamp and a line along it is about to buckle by itself, see spatial::FreeRodEnd.
-  const auto neutral = static_cast<int>(std::count_if(joints_.begin(), joints_.end(), [](const auto& joint) {
-    return !joint->fixed_in_variations().empty();
-  }));
-  negative += neutral_turn_ ? negative_but_turn(dense, numbering.location)
-              : neutral > 0 ? negative_but_neutral(dense, neutral)
-                            : SymmetricFactors(dense).negative();
+  for (int i = 0; i < link_count(); ++i)
+    negative += neutral(i) ? shortened(x, loads, i, condensed[i])->negative_pivots()
+                           : links_[i].arc->negative_pivots();
+  const MatrixXd dense = condensed_variation(purpose, numbering, x, loads, condensed);
+  negative +=
+      neutral_turn_ ? negative_but_turn(dense, numbering.location) : SymmetricFactors(dense).negative();
   return negative - numbering.constraints;
 }
 
@@ -117,7 +118,7 @@ double Chain::sliding_stiffness(const VectorXd& x, const Loads& loads) const {
   const Numbering numbering = number(purpose);
   if (numbering.slide < 0) return 0.0;
   // K v + Φᵀμ = 0, Φ v = 1: the slide of size one that costs least, and −μ = v·K v. A half chain has half the energy.
-  const MatrixXd dense = condensed_variation(purpose, numbering, x, loads);
+  const MatrixXd dense = condensed_variation(purpose, numbering, x, loads, condensed_);
   const VectorXd v = dense.partialPivLu().solve(VectorXd::Unit(numbering.size, numbering.slide));
   return -(half() ? 2.0 : 1.0) * v(numbering.slide);
 }

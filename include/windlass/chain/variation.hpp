@@ -19,9 +19,10 @@ class Linearisation {
  private:
   friend class Variation;
   struct Part {
-    std::unique_ptr<Arc> tail;  ///< in the place of a closed form; null: the chain's own arc
-    MatrixXd nodes;             ///< of the tail, both ends included; ambient × N
-    bool joint_first = true;    ///< of the tail: its joint is at its start
+    std::unique_ptr<Arc> shortened;  ///< factors of a neutral arc, see Chain::shortened; null: the arc's own
+    std::unique_ptr<Arc> tail;       ///< in the place of a closed form; null: the chain's own arc
+    MatrixXd nodes;                  ///< of the tail, both ends included; ambient × N
+    bool joint_first = true;         ///< of the tail: its joint is at its start
     const Arc* arc = nullptr;
     Chain::Placed placed;
     bvp::EndsMatrix condensed;
@@ -59,6 +60,9 @@ class Variation {
   /// May one of the eigenvalues be zero because a turn of the whole rod costs nothing (Chain::expect_neutral_turn)?
   bool neutral() const { return neutral_; }
 
+  /// Eigenvalues smaller than this are zero, see Chain::neutral_size; the inertia counts them as positive.
+  double neutral_size() const { return neutral_size_; }
+
   VectorXd rotations(const VectorXd& v) const;                ///< Wᵀ v
   VectorXd loads(const Eigen::Ref<const VectorXd>& y) const;  ///< W y
   VectorXd solve(VectorXd f) const;                           ///< K⁻¹ f, by the arcs' factors
@@ -95,6 +99,7 @@ class Variation {
   Eigen::Index size_ = 0, points_ = 0, phase_ = -1;
   int negative_ = 0;
   bool neutral_ = false;
+  double neutral_size_ = 0.0;
   VectorXd neutral_motion_;
   MatrixXd joints_;                        ///< terms of the dense block that no arc makes
   VectorXd motion_, reduced_, condensed_;  ///< the phase's row over v; reduced; K⁻¹ of it in the interiors
