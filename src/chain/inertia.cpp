@@ -9,8 +9,19 @@ namespace windlass::chain {
 using contact::JointKind;
 using contact::Parity;
 
-bool Chain::neutral(int link) const {
-  return !joints_[link]->fixed_in_variations().empty() || !joints_[link + 1]->fixed_in_variations().empty();
+bool Chain::neutral(const VectorXd& x, const Loads& loads, int link) const {
+  constexpr double free_of_moment =
+      1e-5;  // of √(B n), what a quarter of a wave carries, times the slope's size 1
+  for (const int end : {link, link + 1}) {
+    if (!joints_[end]->fixed_in_variations().empty()) return true;
+    const int other = end == link ? link + 1 : link, d = links_[link].arc->tangent();
+    if (joints_[end]->kind() != JointKind::end || joints_[other]->kind() != JointKind::touch) continue;
+    const contact::Side side = end == link ? contact::Side::right : contact::Side::left;
+    const bool clamped = joints_[end]->attach(side, coordinates(x, end), loads).dq.isZero(0.0);
+    const auto moment = gradients_[link].segment(end == link ? 0 : d, d);
+    if (clamped && moment.norm() < free_of_moment * std::sqrt(force(x, loads, link).norm())) return true;
+  }
+  return false;
 }
 
 std::unique_ptr<Arc> Chain::shortened(const VectorXd& x, const Loads& loads, int link,
@@ -26,7 +37,7 @@ std::unique_ptr<Arc> Chain::shortened(const VectorXd& x, const Loads& loads, int
 double Chain::neutral_size(const VectorXd& x, const Loads& loads) const {
   double largest = 0.0;
   for (int i = 0; i < link_count(); ++i)
-    if (neutral(i)) largest = std::max(largest, 4.0 * shortened_by * force(x, loads, i).norm());
+    if (neutral(x, loads, i)) largest = std::max(largest, 4.0 * shortened_by * force(x, loads, i).norm());
   return largest;
 }
 
@@ -105,8 +116,8 @@ int Chain::index(const VectorXd& x, const Loads& loads, Parity parity) const {
   std::vector<bvp::EndsMatrix> condensed = condensed_;
   int negative = 0;
   for (int i = 0; i < link_count(); ++i)
-    negative += neutral(i) ? shortened(x, loads, i, condensed[i])->negative_pivots()
-                           : links_[i].arc->negative_pivots();
+    negative += neutral(x, loads, i) ? shortened(x, loads, i, condensed[i])->negative_pivots()
+                                     : links_[i].arc->negative_pivots();
   const MatrixXd dense = condensed_variation(purpose, numbering, x, loads, condensed);
   negative +=
       neutral_turn_ ? negative_but_turn(dense, numbering.location) : SymmetricFactors(dense).negative();

@@ -207,9 +207,10 @@ class Chain {
   MatrixXd condensed_variation(Purpose purpose, const Numbering& numbering, const VectorXd& x,
                                const Loads& loads, const std::vector<bvp::EndsMatrix>& condensed) const;
   /// Is this the arc between a clamp and a line along it, which is about to buckle by itself, at any load
-  /// (contact::spatial::FreeRodEnd)? Its mode, zero at both ends, costs nothing to second order: a pivot of the
-  /// interior alone is zero, with a sign that the mesh makes.
-  bool neutral(int link) const;
+  /// (contact::spatial::FreeRodEnd)? Or that between a clamp and a touch where the line begins, free of moment at both
+  /// ends? Its mode, zero at both ends, costs nothing to second order: a pivot of the interior alone is zero, with a sign
+  /// that the mesh makes.
+  bool neutral(const VectorXd& x, const Loads& loads, int link) const;
   /// The neutral arc as factored where it is this much shorter: the mode then costs 2·1e-6 of the thrust, thousands of
   /// times what mesh and state make of the zero (1e-8, PHYSICS "Struts between walls"), and other modes change by as
   /// little.
