@@ -201,6 +201,9 @@ int RodProblem::count(const Vector& x, const Vector& p, contact::Parity parity) 
 }
 
 int RodProblem::total_index(const Vector& x, const Vector& p) {
+  // At an event where a contact carries nothing the last sound point's count stands here, too.
+  const bool known = index_ >= 0 && (!topology_.half || breaking_index_ >= 0);
+  if (known && degenerate(x, loads(p))) return index_ + (topology_.half ? breaking_index_ : 0);
   const bool counted = counts_.x.size() > 0 && counts_.x == x && counts_.p == p && counts_.negative[0] >= 0 &&
                        counts_.negative[1] >= 0;
   if (!counted) factored(x, p);
@@ -293,6 +296,8 @@ std::shared_ptr<continuation::Problem> RodProblem::clone() const {
   auto copy = std::make_shared<RodProblem>(scene_, spatial_, topology_, meshes_, keys_);
   copy->last_error_ = last_error_;
   copy->nodal_floor_ = nodal_floor_;
+  copy->index_ = index_;
+  copy->breaking_index_ = breaking_index_;
   return copy;
 }
 

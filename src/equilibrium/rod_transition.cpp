@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -79,7 +80,9 @@ std::optional<double> locate_from_beyond(Entry& entry, double s) {
   const double scale = std::max(1.0, std::abs(entry.p(0))), start = entry.p(0);
   Entry other = entry;
   other.p(0) += 1e-5 * scale;
-  std::optional<double> last = value_at(other), value = value_at(entry);
+  std::optional<double> last = value_at(other);
+  if (last) entry.x = other.x;  // nearer than the guess
+  std::optional<double> value = value_at(entry);
   double last_p = other.p(0);
   for (int k = 0; k < 20 && last && value && *value != *last; ++k) {
     const double step = -*value * (entry.p(0) - last_p) / (*value - *last);
@@ -121,30 +124,37 @@ int straight_line(const RodProblem& lines, int link) {
   return lines.rod().obstacles[topology.obstacle(link == 0 ? 1 : link)].curvature() == 0.0 ? link : -1;
 }
 
+/// State of a touch at p(0), where branches cross and its equations are singular: extrapolated from the side that it is on,
+/// by Richardson, from distances that double. @returns whether all of them have a solution
+bool extrapolate(Entry& touch, double p) {
+  constexpr int levels = 4;
+  constexpr double nearest = 1e-4;  // of p: rounding is amplified by its inverse, the error is (8e-4)⁴
+  const double distance = std::copysign(nearest * std::abs(p), touch.p(0) - p);
+  std::array<Vector, levels> x;
+  for (int k = 0; k < levels; ++k) {
+    touch.p(0) = p + distance * (1 << k);
+    if (touch.problem->polish(touch.x, touch.p, 18) < 0) return false;
+    x[k] = touch.x;
+  }
+  for (int order = 1; order < levels; ++order)
+    for (int k = 0; k + order < levels; ++k) x[k] += (x[k] - x[k + 1]) / ((1 << order) - 1);
+  touch.x = x[0];
+  touch.p(0) = p;
+  return true;
+}
+
 /// The event where a line on a plane begins, and the touch in its place.
-std::optional<continuation::Transition::Located> located_onset(Entry line, int link, const Entry& touch) {
+std::optional<continuation::Transition::Located> located_onset(Entry line, int link, Entry touch) {
   std::optional<LineBegins> begins;
-  tried([&] {
-    begins = where_line_begins(*line.problem, line.x, line.p, link);
-    return true;
-  });
-  if (!begins) return std::nullopt;
-  continuation::Transition::Located out;
-  const auto problem = std::static_pointer_cast<RodProblem>(touch.problem->clone());
-  out.problem = problem;
-  out.x = touch.x;
-  out.p = touch.p;
-  out.p(0) = begins->p;
-  out.precision = begins->precision;
-  // Branches cross here: Newton's method converges by halves, and not to rounding.
-  constexpr double settled = 1e-9;
-  constexpr int most = 40;
+  constexpr double settled = 1e-8;
+  touch.problem = std::static_pointer_cast<RodProblem>(touch.problem->clone());
   if (!tried([&] {
-        problem->polish(out.x, out.p, most);
-        return problem->residual_norm(problem->residual(out.x, out.p)) < settled;
+        begins = where_line_begins(*line.problem, line.x, line.p, link);
+        return begins && extrapolate(touch, begins->p) &&
+               touch.problem->residual_norm(touch.problem->residual(touch.x, touch.p)) < settled;
       }))
     return std::nullopt;
-  return out;
+  return continuation::Transition::Located{touch.problem, touch.x, touch.p, begins->precision};
 }
 
 double length_of(Entry& entry, int link) {
