@@ -184,6 +184,10 @@ std::optional<continuation::Unrestricted> RodProblem::unrestricted(const Vector&
 
 bool RodProblem::degenerate(const Vector& x, const Loads& at) const {
   constexpr double nothing = 1e-7;
+  if (topology_.mid_touch) {  // the half-turn about e_y gives the force on the other side
+    const double normal = chain_->joint(0).chart(chain_->coordinates(x, 0)).normal(1);
+    if (-2.0 * chain_->force(x, at, 0)(1) * normal < nothing) return true;
+  }
   for (int j = 1; j < chain_->joint_count(); ++j) {
     if (chain_->arclength(x, at, j) - chain_->arclength(x, at, j - 1) < nothing) return true;
     const contact::Joint& joint = chain_->joint(j);

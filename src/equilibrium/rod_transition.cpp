@@ -73,7 +73,11 @@ std::optional<double> locate_from_beyond(Entry& entry, double s) {
       const bool unpressed = event.kind == Kind::buckling && shape.pieces[event.place].buckling;
       if (event.kind != Kind::pressure && !unpressed) continue;
       const Eigen::VectorXd& places = shape.pieces[event.place].s;
-      if (places(0) - least < s && s < places(places.size() - 1) + least) pressure = event.value;
+      const double begin = places(0), end = places(places.size() - 1);
+      // The touches of a bow have moved since it was straight.
+      constexpr double moved = 0.05;
+      const double beyond = unpressed ? moved * (end - begin) : least;
+      if (begin - beyond < s && s < end + beyond) pressure = event.value;
     }
     return pressure;
   };
