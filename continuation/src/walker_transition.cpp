@@ -110,6 +110,12 @@ void Walker::pass(Point event, std::size_t which, const std::string& name, int d
     event.tangent = state_.tangent;
     event.precision = transition->precision;
   }
+  if (const auto& located = transition->located) {
+    event.problem = located->problem;
+    event.x = located->x;
+    event.p = located->p;
+    event.precision = located->precision;
+  }
   say_what_follows(event);
   const double before = event.p[options_.parameter];
   if (!transition->silent) queue_.push_back(std::move(event));

@@ -110,6 +110,7 @@ void BranchRecorder::add_eigenvalues(Solution& solution, const Point& point) {
       const double zero = zero_eigenvalue * problem.units().force;
       kernel_ = static_cast<int>(std::count_if(stability.eigenvalues.begin(), stability.eigenvalues.end(),
                                                [zero](double mu) { return std::abs(mu) < zero; }));
+      kernel_ = std::max(0, kernel_ - stability::neutral_modes(problem));
     } catch (
         const std::exception&) {  // at a singular point the spectrum may be out of reach; the index is not
     }

@@ -9,23 +9,37 @@ namespace windlass::chain {
 using contact::JointKind;
 using contact::Parity;
 
-namespace {
-
-/// Number of eigenvalues below zero of a symmetric matrix where as many eigenvalues as `neutral` are zero but for rounding, which do not count.
-int negative_but_neutral(const MatrixXd& dense, int neutral) {
-  constexpr double rounding =
-      1e-7;  // of the middle one: states are good to 1e-10, and the arcs' own singularity adds to it
-  VectorXd values = Eigen::SelfAdjointEigenSolver<MatrixXd>(dense, Eigen::EigenvaluesOnly).eigenvalues();
-  std::sort(values.begin(), values.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
-  // An arc that is singular by itself leaves an entry as large as 1e10, and its rounding to the others.
-  const double zero =
-      rounding * std::abs(values(values.size() / 2)) + 1e-14 * std::abs(values(values.size() - 1));
-  int negative = 0;
-  for (Eigen::Index k = 0; k < values.size(); ++k) negative += values(k) < (k < neutral ? -zero : 0.0);
-  return negative;
+bool Chain::neutral(const VectorXd& x, const Loads& loads, int link) const {
+  constexpr double free_of_moment =
+      1e-5;  // of √(B n), what a quarter of a wave carries, times the slope's size 1
+  for (const int end : {link, link + 1}) {
+    if (!joints_[end]->fixed_in_variations().empty()) return true;
+    const int other = end == link ? link + 1 : link, d = links_[link].arc->tangent();
+    if (joints_[end]->kind() != JointKind::end || joints_[other]->kind() != JointKind::touch) continue;
+    const contact::Side side = end == link ? contact::Side::right : contact::Side::left;
+    const bool clamped = joints_[end]->attach(side, coordinates(x, end), loads).dq.isZero(0.0);
+    const auto moment = gradients_[link].segment(end == link ? 0 : d, d);
+    if (clamped && moment.norm() < free_of_moment * std::sqrt(force(x, loads, link).norm())) return true;
+  }
+  return false;
 }
 
-}  // namespace
+std::unique_ptr<Arc> Chain::shortened(const VectorXd& x, const Loads& loads, int link,
+                                      bvp::EndsMatrix& condensed) const {
+  std::unique_ptr<Arc> arc = links_[link].arc->remeshed(links_[link].arc->mesh(), links_[link].arc->stages());
+  const Placed placed = place(x, loads, link);
+  bvp::ArcPoint point = placed.point();
+  point.length *= 1.0 - shortened_by;
+  arc->factor(point, condensed);
+  return arc;
+}
+
+double Chain::neutral_size(const VectorXd& x, const Loads& loads) const {
+  double largest = 0.0;
+  for (int i = 0; i < link_count(); ++i)
+    if (neutral(x, loads, i)) largest = std::max(largest, 4.0 * shortened_by * force(x, loads, i).norm());
+  return largest;
+}
 
 void Chain::add_gauges(const Numbering& numbering, Purpose purpose, const VectorXd& x,
                        MatrixXd& dense) const {
@@ -114,14 +128,21 @@ std::vector<Chain::Coupled> Chain::held_by(const Arc& arc, MatrixXd& dense) {
   return out;
 }
 
+std::vector<const Arc*> Chain::arcs() const {
+  std::vector<const Arc*> out;
+  for (const Link& link : links_) out.push_back(link.arc.get());
+  return out;
+}
+
 MatrixXd Chain::condensed_variation(Purpose purpose, const Numbering& numbering, const VectorXd& x,
-                                    const Loads& loads) const {
+                                    const Loads& loads, const std::vector<const Arc*>& arcs,
+                                    const std::vector<bvp::EndsMatrix>& condensed) const {
   MatrixXd dense = variation_matrix(purpose, numbering, x, loads);
   const VectorXd motion = numbering.phase >= 0 ? phase_motion(purpose, numbering, x, loads) : VectorXd();
   for (int i = 0; i < link_count(); ++i) {
-    const Arc& arc = *links_[i].arc;
+    const Arc& arc = *arcs[i];
     const Local l = local(purpose, numbering, x, loads, i);
-    const MatrixXd share = condensed_share(purpose, l, arc, condensed_[i], i);
+    const MatrixXd share = condensed_share(purpose, l, arc, condensed[i], i);
     for (std::size_t r = 0; r < l.dofs.size(); ++r)
       for (std::size_t s = 0; s < l.dofs.size(); ++s) dense(l.dofs[r], l.dofs[s]) += share(r, s);
     std::vector<Coupled> coupled = held_by(arc, dense);
@@ -137,20 +158,23 @@ Chain::Inertia Chain::inertia(const VectorXd& x, const Loads& loads, Parity pari
   if (parity == Parity::odd && !half()) return {};
   const Purpose purpose = parity == Parity::odd ? Purpose::odd : Purpose::even;
   const Numbering numbering = number(purpose);
-  const MatrixXd dense = condensed_variation(purpose, numbering, x, loads);
-  int negative = 0;
-  for (const Link& link : links_) negative += link.arc->negative_pivots();
-  negative -= numbering.constraints;
-  // The arc between a clamp and a line along it is about to buckle by itself, see spatial::FreeRodEnd.
-  const auto neutral = static_cast<int>(std::count_if(joints_.begin(), joints_.end(), [](const auto& joint) {
-    return !joint->fixed_in_variations().empty();
-  }));
+  std::vector<const Arc*> arcs = this->arcs();
+  std::vector<bvp::EndsMatrix> condensed = condensed_;
+  std::vector<std::unique_ptr<Arc>> replaced;
+  int negative = -numbering.constraints;
+  for (int i = 0; i < link_count(); ++i) {
+    if (neutral(x, loads, i)) {
+      replaced.push_back(shortened(x, loads, i, condensed[i]));
+      arcs[i] = replaced.back().get();
+    }
+    negative += arcs[i]->negative_pivots();
+  }
+  const MatrixXd dense = condensed_variation(purpose, numbering, x, loads, arcs, condensed);
   if (may_turn(parity, x, loads)) return {negative + negative_but_turn(dense, numbering.location), false};
-  if (neutral > 0) return {negative + negative_but_neutral(dense, neutral), false};
   constexpr double close_to_rounding = 1e-9;  // of the largest entry
   const SymmetricFactors factors(dense);
-  const bool near =
-      dense.size() > 0 && factors.least_pivot() < close_to_rounding * dense.cwiseAbs().maxCoeff();
+  const bool near = replaced.empty() && dense.size() > 0 &&
+                    factors.least_pivot() < close_to_rounding * dense.cwiseAbs().maxCoeff();
   return {negative + factors.negative(), near};
 }
 
@@ -159,7 +183,7 @@ double Chain::sliding_stiffness(const VectorXd& x, const Loads& loads) const {
   const Numbering numbering = number(purpose);
   if (numbering.slide < 0) return 0.0;
   // K v + Φᵀμ = 0, Φ v = 1: the slide of size one that costs least, and −μ = v·K v. A half chain has half the energy.
-  const MatrixXd dense = condensed_variation(purpose, numbering, x, loads);
+  const MatrixXd dense = condensed_variation(purpose, numbering, x, loads, arcs(), condensed_);
   const VectorXd v = dense.partialPivLu().solve(VectorXd::Unit(dense.rows(), numbering.slide));
   return -(half() ? 2.0 : 1.0) * v(numbering.slide);
 }

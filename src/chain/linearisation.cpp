@@ -73,6 +73,10 @@ Linearisation::Part Linearisation::own_part(int link) const {
   part.arc = chain_.links_[link].arc.get();
   part.placed = chain_.place(x_, loads_, link);
   part.condensed = chain_.condensed_[link];
+  if (chain_.neutral(x_, loads_, link)) {
+    part.shortened = chain_.shortened(x_, loads_, link, part.condensed);
+    part.arc = part.shortened.get();
+  }
   return part;
 }
 

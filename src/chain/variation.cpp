@@ -42,6 +42,7 @@ Variation::Variation(const Linearisation& at, Parity parity) : at_(at) {
       for (std::size_t s = 0; s < dofs.size(); ++s) dense(dofs[r], dofs[s]) += share(r, s);
     negative_ += here.part->arc->negative_pivots();
   }
+  neutral_size_ = chain.neutral_size(at.x_, at.loads_);
   phase_ = numbering.phase;
   if (phase_ >= 0) hold_phase(purpose, numbering, dense);
   add_borders(dense);

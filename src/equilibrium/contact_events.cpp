@@ -189,6 +189,14 @@ ContactEvent length_event(const Profile& profile, int i, bool begins_at_mid) {
   return event;
 }
 
+/// Curvature at which a touch gives way, see `least_curvature`.
+double least_curvature_at(const Profile& profile, const Contact& c) {
+  if (profile.obstacles[c.obstacle].curvature() != 0.0) return 0.0;
+  const Piece& beside =
+      profile.pieces[c.joint < static_cast<int>(profile.pieces.size()) ? c.joint : c.joint - 1];
+  return least_curvature * std::max(c.force, 0.0) / std::sqrt(beside.n.col(0).norm());
+}
+
 }  // namespace
 
 std::string ContactEvent::name() const {
@@ -219,7 +227,8 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
   }
   for (const Contact& c : profile.contacts) {
     events.push_back({Kind::force, c.joint, c.force, c.s});
-    if (!c.edge) events.push_back({Kind::curvature, c.joint, c.gap_curvature, c.s});
+    if (!c.edge)
+      events.push_back({Kind::curvature, c.joint, c.gap_curvature - least_curvature_at(profile, c), c.s});
   }
   return events;
 }

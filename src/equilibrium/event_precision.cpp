@@ -3,18 +3,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/equilibrium/opening.hpp"
 
 namespace windlass::equilibrium {
 
 namespace {
 
+std::optional<double> value_of(const std::vector<ContactEvent>& events, const std::string& name) {
+  for (const ContactEvent& event : events)
+    if (event.name() == name) return event.value;
+  return std::nullopt;
+}
+
 /// Value of the event where the problem is solved at p, from a state nearby.
 std::optional<double> value_at(RodProblem& problem, Vector& x, const Vector& p, const std::string& event) {
   if (problem.polish(x, p) < 0) return std::nullopt;
-  for (const continuation::EventFunction& function : problem.events(x, p))
-    if (function.name == event) return function.value;
-  return std::nullopt;
+  return value_of(contact_events(problem.profile(x, p), problem.topology()), event);
 }
 
 }  // namespace
@@ -31,9 +36,13 @@ std::optional<double> event_precision(const RodProblem& problem, const Vector& x
     const auto here = value_at(finer, fine, p, event);
     Vector beside = p;
     beside(0) += difference * std::max(1.0, std::abs(p(0)));
-    const auto there = here ? value_at(finer, fine, beside, event) : std::nullopt;
+    // Zero, but where the event is located by other means (Transition::located).
+    const chain::Profile coarse =
+        chain::profile(problem.chain(), problem.topology(), problem.rod(), x, finer.loads(p));
+    const auto own = value_of(contact_events(coarse, problem.topology()), event);
+    const auto there = here && own ? value_at(finer, fine, beside, event) : std::nullopt;
     if (!there || *there == *here) return false;
-    const double distance = safety * std::abs(*here * (beside(0) - p(0)) / (*there - *here));
+    const double distance = safety * std::abs((*here - *own) * (beside(0) - p(0)) / (*there - *here));
     if (distance < believable) precision = distance;
     return true;
   });

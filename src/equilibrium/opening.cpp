@@ -1,10 +1,12 @@
 #include "windlass/equilibrium/opening.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
 #include "windlass/chain/singular_matrix.hpp"
+#include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/rod/quaternion.hpp"
 
 namespace windlass::equilibrium {
@@ -146,6 +148,23 @@ void settle_shape(RodProblem& problem, Vector& x, Vector& p, const std::vector<i
   for (int k = 0; k < 4; ++k)
     if (const double step = newton_step(problem, x, p, borders, goal, false); step < 1e-8 || std::isinf(step))
       return;
+}
+
+std::optional<LineBegins> where_line_begins(RodProblem& problem, Vector x, Vector p, int link) {
+  // p(0) is smooth in the length: Richardson's extrapolation from lengths that double.
+  constexpr int levels = 4;
+  const double shortest = 4.0 * least_length * problem.rod().unit_length;
+  std::array<double, levels> values;
+  double before = 0.0;
+  for (int k = levels; k-- > 0;) {
+    if (!solve_at_length(problem, x, p, link, shortest * (1 << k))) return std::nullopt;
+    values[k] = p(0);
+  }
+  for (int order = 1; order < levels; ++order) {
+    before = values[0];
+    for (int k = 0; k + order < levels; ++k) values[k] += (values[k] - values[k + 1]) / ((1 << order) - 1);
+  }
+  return LineBegins{values[0], std::abs(values[0] - before)};
 }
 
 bool solve_at_length(RodProblem& problem, Vector& x, Vector& p, int link, double length) {

@@ -185,6 +185,10 @@ std::optional<continuation::Unrestricted> RodProblem::unrestricted(const Vector&
 
 bool RodProblem::degenerate(const Vector& x, const Loads& at) const {
   constexpr double nothing = 1e-7;
+  if (topology_.mid_touch) {  // the half-turn about e_y gives the force on the other side
+    const double normal = chain_->joint(0).chart(chain_->coordinates(x, 0)).normal(1);
+    if (-2.0 * chain_->force(x, at, 0)(1) * normal < nothing) return true;
+  }
   for (int j = 1; j < chain_->joint_count(); ++j) {
     if (chain_->arclength(x, at, j) - chain_->arclength(x, at, j - 1) < nothing) return true;
     const contact::Joint& joint = chain_->joint(j);
@@ -213,6 +217,9 @@ int RodProblem::count(const Vector& x, const Vector& p, contact::Parity parity, 
 }
 
 int RodProblem::total_index(const Vector& x, const Vector& p) {
+  // At an event where a contact carries nothing the last sound point's count stands here, too.
+  const bool known = index_ >= 0 && (!topology_.half || breaking_index_ >= 0);
+  if (known && degenerate(x, loads(p))) return index_ + (topology_.half ? breaking_index_ : 0);
   const bool counted = counts_.x.size() > 0 && counts_.x == x && counts_.p == p && counts_.negative[0] >= 0 &&
                        counts_.negative[1] >= 0;
   if (!counted) factored(x, p);
@@ -305,6 +312,8 @@ std::shared_ptr<continuation::Problem> RodProblem::clone() const {
   auto copy = std::make_shared<RodProblem>(scene_, spatial_, topology_, meshes_, keys_);
   copy->last_error_ = last_error_;
   copy->nodal_floor_ = nodal_floor_;
+  copy->index_ = index_;
+  copy->breaking_index_ = breaking_index_;
   return copy;
 }
 

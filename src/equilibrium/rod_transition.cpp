@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/equilibrium/opening.hpp"
@@ -68,16 +70,23 @@ std::optional<double> locate_from_beyond(Entry& entry, double s) {
     std::optional<double> pressure;
     for (const ContactEvent& event : contact_events(shape, at.problem->topology())) {
       if (event.kind == Kind::curvature && std::abs(event.s - s) < 10.0 * least) return event.value;
-      if (event.kind != Kind::pressure) continue;
+      const bool unpressed = event.kind == Kind::buckling && shape.pieces[event.place].buckling;
+      if (event.kind != Kind::pressure && !unpressed) continue;
       const Eigen::VectorXd& places = shape.pieces[event.place].s;
-      if (places(0) - least < s && s < places(places.size() - 1) + least) pressure = event.value;
+      const double begin = places(0), end = places(places.size() - 1);
+      // The touches of a bow have moved since it was straight.
+      constexpr double moved = 0.05;
+      const double beyond = unpressed ? moved * (end - begin) : least;
+      if (begin - beyond < s && s < end + beyond) pressure = event.value;
     }
     return pressure;
   };
   const double scale = std::max(1.0, std::abs(entry.p(0))), start = entry.p(0);
   Entry other = entry;
   other.p(0) += 1e-5 * scale;
-  std::optional<double> last = value_at(other), value = value_at(entry);
+  std::optional<double> last = value_at(other);
+  if (last) entry.x = other.x;  // nearer than the guess
+  std::optional<double> value = value_at(entry);
   double last_p = other.p(0);
   for (int k = 0; k < 20 && last && value && *value != *last; ++k) {
     const double step = -*value * (entry.p(0) - last_p) / (*value - *last);
@@ -92,15 +101,64 @@ std::optional<double> locate_from_beyond(Entry& entry, double s) {
 }
 
 /// Solves for the successor right here, or a little to either side, with its contacts intact.
-bool settle_beside(Entry& entry) {
+bool settle_beside(Entry& entry, const std::vector<double>& offsets) {
   const Vector p = entry.p, guess = entry.x;
-  for (const double offset : {0.0, -0.02, 0.02, -0.008, 0.008, -0.002, 0.002}) {
+  for (const double offset : offsets) {
     entry.p = p;
     entry.x = guess;
-    entry.p(0) += offset * std::max(1.0, std::abs(p(0)));
+    entry.p(0) += offset;
     if (tried([&] { return entry.problem->polish(entry.x, entry.p, 18) >= 0 && holds(entry); })) return true;
   }
   return false;
+}
+
+/// The same, a touch in the place of a line on a plane that has no length left: it holds on one side of the event, from
+/// where its curvature is that at which it gives way (`least_curvature`).
+bool settle_touch(Entry& entry) {
+  std::vector<double> offsets;
+  for (const double offset : {1e-4, 4e-4, 2e-3, 1e-2})
+    for (const double sign : {-1.0, 1.0}) offsets.push_back(sign * offset * std::abs(entry.p(0)));
+  return settle_beside(entry, offsets);
+}
+
+/// Link of a line on a plane that begins or ends at the event, in `lines`; −1: it is none.
+int straight_line(const RodProblem& lines, int link) {
+  const Topology& topology = lines.topology();
+  if (topology.stretches[link] != chain::Stretch::line) return -1;
+  return lines.rod().obstacles[topology.obstacle(link == 0 ? 1 : link)].curvature() == 0.0 ? link : -1;
+}
+
+/// State of a touch at p(0), where branches cross and its equations are singular: extrapolated from the side that it is on,
+/// by Richardson, from distances that double. @returns whether all of them have a solution
+bool extrapolate(Entry& touch, double p) {
+  constexpr int levels = 4;
+  constexpr double nearest = 1e-4;  // of p: rounding is amplified by its inverse, the error is (8e-4)⁴
+  const double distance = std::copysign(nearest * std::abs(p), touch.p(0) - p);
+  std::array<Vector, levels> x;
+  for (int k = 0; k < levels; ++k) {
+    touch.p(0) = p + distance * (1 << k);
+    if (touch.problem->polish(touch.x, touch.p, 18) < 0) return false;
+    x[k] = touch.x;
+  }
+  for (int order = 1; order < levels; ++order)
+    for (int k = 0; k + order < levels; ++k) x[k] += (x[k] - x[k + 1]) / ((1 << order) - 1);
+  touch.x = x[0];
+  touch.p(0) = p;
+  return true;
+}
+
+/// The event where a line on a plane begins, and the touch in its place.
+std::optional<continuation::Transition::Located> located_onset(Entry line, int link, Entry touch) {
+  std::optional<LineBegins> begins;
+  constexpr double settled = 1e-8;
+  touch.problem = std::static_pointer_cast<RodProblem>(touch.problem->clone());
+  if (!tried([&] {
+        begins = where_line_begins(*line.problem, line.x, line.p, link);
+        return begins && extrapolate(touch, begins->p) &&
+               touch.problem->residual_norm(touch.problem->residual(touch.x, touch.p)) < settled;
+      }))
+    return std::nullopt;
+  return continuation::Transition::Located{touch.problem, touch.x, touch.p, begins->precision};
 }
 
 double length_of(Entry& entry, int link) {
@@ -163,12 +221,13 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, i
 }
 
 /// Solves for the successor of an event. @param precision  set where the state found is the event itself
+/// @param becomes_touch  a line on a plane has no length left
 std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const Successor& next,
-                           double& precision) {
+                           bool becomes_touch, double& precision) {
   constexpr int most_together = 5;
   const double unit = guess.problem->rod().unit_length;
   Entry exact = guess;
-  const bool vanishes = (event.kind == Kind::length && !event.redrawn) ||
+  const bool vanishes = (event.kind == Kind::length && !event.redrawn && !becomes_touch) ||
                         (event.kind == Kind::curvature && next.opened.empty());
   if (vanishes && tried([&] {
         const auto found = locate_from_beyond(exact, event.s + 0.5 * least_length * unit);
@@ -192,7 +251,12 @@ std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const 
     return entered;
   }
   Entry beside = guess;
-  return settle_beside(beside) ? std::optional(beside) : std::nullopt;
+  const double scale = std::max(1.0, std::abs(beside.p(0)));
+  const bool settled = becomes_touch
+                           ? settle_touch(beside)
+                           : settle_beside(beside, {0.0, -0.02 * scale, 0.02 * scale, -0.008 * scale,
+                                                    0.008 * scale, -0.002 * scale, 0.002 * scale});
+  return settled ? std::optional(beside) : std::nullopt;
 }
 
 }  // namespace
@@ -224,8 +288,15 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
     transition.state = entry.x;
     transition.problem = entry.problem;
     if (!first) first = transition;
-    const std::optional<Entry> found = enter(entry, event, next, transition.precision);
+    const bool shrinks = event.kind == Kind::length && straight_line(*this, event.place) >= 0;
+    const std::optional<Entry> found = enter(entry, event, next, shrinks, transition.precision);
     if (!found) continue;
+    const auto here = std::static_pointer_cast<RodProblem>(clone());
+    if (shrinks)
+      transition.located = located_onset({here, x, p}, event.place, *found);
+    else if (event.kind == Kind::curvature && next.opened.size() == 1 &&
+             straight_line(*found->problem, next.opened.front()) >= 0)
+      transition.located = located_onset(*found, next.opened.front(), {here, x, p});
     transition.problem = found->problem;
     transition.after = found->problem->topology().text();
     transition.state = found->x;

@@ -40,6 +40,8 @@ void Strip::erase(int i, int bound) {
 void Strip::merge(int first, int last, Stretch kind) {
   for (int i = last; i > first; --i) erase(i, i);
   parts[first].kind = kind;
+  if (kind == Stretch::line && starts_at_mid(first) && !mid_touch)
+    on[0] = on[1];  // a section of it is there now
 }
 
 void Strip::split(int i, double at, Stretch left, Stretch right, std::optional<int> obstacle) {

@@ -123,6 +123,15 @@ Successor widened(const Strip& strip, int j, Stretch between, double length) {
   return wide.successor();
 }
 
+/// Has a gap bowed off its plane, by A (1 − cos ks) with hardly more curvature A k² than the touches at its ends give way at?
+bool slightly_bowed(const Profile& profile, int gap, double height) {
+  const double k2 = profile.pieces[gap].n.col(0).norm();
+  for (const chain::Contact& c : profile.contacts)
+    if ((c.joint == gap || c.joint == gap + 1) && profile.obstacles[c.obstacle].curvature() == 0.0)
+      return height * k2 < 4.0 * least_curvature * c.force / std::sqrt(k2);
+  return false;
+}
+
 std::vector<Successor> after_curvature(const ContactEvent& event, const Strip& strip,
                                        const Profile& profile) {
   std::vector<Successor> out;
@@ -133,7 +142,7 @@ std::vector<Successor> after_curvature(const ContactEvent& event, const Strip& s
     double widest = 0.0;
     for (Eigen::Index k = 0; k < profile.pieces[i].s.size(); ++k)
       widest = std::max(widest, std::abs(profile.obstacles[strip.on[j]].gap(profile.pieces[i].r.col(k))));
-    if (widest > 1e-5) continue;
+    if (widest > 1e-5 && !slightly_bowed(profile, i, widest)) continue;
     const auto is_line = [&](int part) {
       return part >= 0 && part < static_cast<int>(strip.parts.size()) &&
              strip.parts[part].kind == Stretch::line;

@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
+#include "windlass/obstacle/scene_obstacles.hpp"
 #include "windlass/output/atomic_file.hpp"
 #include "windlass/output/branches_csv.hpp"
 #include "windlass/output/error.hpp"
@@ -152,6 +155,19 @@ std::string vtk_cylinder(const scene::Scene& scene, double low, double high) {
                        points(places) + cells("Polys", quads, 4));
 }
 
+std::string vtk_walls(const obstacle::Set& obstacles, const Eigen::AlignedBox3d& box) {
+  std::vector<Vector3d> places, normals;
+  std::vector<int> quads;
+  for (int o = 0; o < obstacles.size(); ++o)
+    for (const Vector3d& corner : obstacles[o].sheet(box)) {
+      quads.push_back(static_cast<int>(places.size()));
+      places.push_back(corner), normals.push_back(obstacles[o].normal(corner));
+    }
+  return poly_data("", {places.size(), 0, 0, quads.size() / 4},
+                   "<PointData Normals=\"Normals\">\n" + array("Normals", normals) + "</PointData>\n" +
+                       points(places) + cells("Polys", quads, 4));
+}
+
 namespace {
 
 std::string data_set(std::size_t time, int part, const char* title, const std::string& file) {
@@ -176,20 +192,26 @@ fs::path export_vtk(const Run& run, const scene::Scene& scene, const std::vector
   if (error) throw OutputError("cannot make the folder " + folder.string() + ": " + error.message());
   std::string sets;
   double low = -1.0, high = 1.0;
+  Eigen::AlignedBox3d box;
   for (std::size_t k = 0; k < names.size(); ++k) {
     const equilibrium::Solution solution = run.points.get(names[k]);
     if (solution.arcs.empty()) throw OutputError("the point " + names[k] + " holds no rod to export");
     const VtkRod rod = vtk_rod(solution, scene);
     replace_file(folder / ("rod-" + names[k] + ".vtp"), std::string_view(rod.rod));
     sets += data_set(k, 0, "rod", "rod-" + names[k] + ".vtp");
-    if (!scene.has_cylinder) continue;
+    if (!scene.has_cylinder && scene.walls.empty()) continue;
     replace_file(folder / ("forces-" + names[k] + ".vtp"), std::string_view(rod.forces));
-    sets +=
-        data_set(k, 1, "forces", "forces-" + names[k] + ".vtp") + data_set(k, 2, "cylinder", "cylinder.vtp");
+    sets += data_set(k, 1, "forces", "forces-" + names[k] + ".vtp");
+    sets += scene.has_cylinder ? data_set(k, 2, "cylinder", "cylinder.vtp")
+                               : data_set(k, 2, "walls", "walls.vtp");
     include_height(solution, low, high);
+    for (const auto& arc : solution.arcs)
+      for (Eigen::Index i = 0; i < arc.r.cols(); ++i) box.extend(Vector3d(arc.r.col(i)));
   }
   if (scene.has_cylinder)
     replace_file(folder / "cylinder.vtp", std::string_view(vtk_cylinder(scene, low, high)));
+  else if (!scene.walls.empty())
+    replace_file(folder / "walls.vtp", std::string_view(vtk_walls(obstacle::obstacles_of(scene), box)));
   const fs::path collection = folder / (stem + ".pvd");
   replace_file(collection,
                std::string_view("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "

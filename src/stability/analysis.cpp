@@ -68,6 +68,13 @@ Mode mode_of(RodProblem& problem, const Vector& x, const Vector& p, const Vector
   return mode;
 }
 
+int neutral_modes(const RodProblem& problem) {
+  const chain::Chain& chain = problem.chain();
+  int hinges = 0;
+  for (int j = 0; j < chain.joint_count(); ++j) hinges += !chain.joint(j).fixed_in_variations().empty();
+  return problem.topology().half ? 2 * hinges : hinges;
+}
+
 Stability analyse(RodProblem& given, const Vector& at_x, const Vector& p, int count, bool modes,
                   SpectrumSolver& solver) {
   Stability out;
@@ -100,8 +107,7 @@ Stability analyse(RodProblem& given, const Vector& at_x, const Vector& p, int co
   for (const Mode& mode : all) out.eigenvalues.push_back(mode.eigenvalue);
   if (modes) out.modes = std::move(all);
   // An arc about to buckle by itself, see contact::spatial::FreeRodEnd: zero to second order.
-  for (int j = 0; j < problem.chain().joint_count(); ++j)
-    out.degenerate |= !problem.chain().joint(j).fixed_in_variations().empty();
+  out.degenerate |= neutral_modes(problem) > 0;
   equilibrium::multiply(out, given.units());
   return out;
 }

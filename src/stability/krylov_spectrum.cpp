@@ -123,6 +123,7 @@ int KrylovSpectrum::negative() const {
   return static_cast<int>(std::count_if(found_.begin(), found_.end(), [&](const Pair& pair) {
     if (variation_->neutral() && std::abs(pair.value) < neutral_turn)
       return false;  // the inertia leaves it out, too
+    if (std::abs(pair.value) < variation_->neutral_size()) return pair.theta < 0.0;
     return pair.theta < 0.0 || pair.value <= pair.rounding;
   }));
 }

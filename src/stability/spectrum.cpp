@@ -25,8 +25,9 @@ Spectrum ordered(std::vector<Pair> pairs, const chain::Variation& variation, int
   });
   for (auto pair = pairs.begin(); pair != pairs.end(); ++pair) {
     if (pair == nearest && variation.neutral() && std::abs(pair->value) < neutral_turn) continue;
-    out.index += pair->value < -pair->rounding;
-    out.rounded |= std::abs(pair->value) <= pair->rounding;
+    const double zero = std::max(pair->rounding, variation.neutral_size());
+    out.index += pair->value < -zero;
+    out.rounded |= std::abs(pair->value) <= zero;
   }
   const auto kept = std::min<Index>(static_cast<Index>(pairs.size()), std::max(count, out.index));
   out.eigenvalues.resize(kept);

@@ -16,12 +16,19 @@ class Problem;
 
 /// What follows an event: the problem that holds beyond it, and its state there.
 struct Transition {
+  /// The event itself, where that is known better than as a zero of its function.
+  struct Located {
+    std::shared_ptr<Problem> problem;
+    Vector x, p;
+    double precision = 0.0;
+  };
   std::shared_ptr<Problem> problem;  ///< null: the branch ends here (a reported end, not a failure)
   Vector state;                      ///< a guess for the new problem, to be corrected by the caller
   std::string before, after;         ///< descriptions of the two sides, e.g. contact topologies
   Vector p;  ///< where `state` solves, if beside the event (where a new part has no size yet)
   double precision =
       -1.0;  ///< of p, if `state` at p is the event itself, located from beyond; negative: it is not
+  std::optional<Located> located = {};
   bool silent = false;  ///< the same state, described otherwise: no point of the branch
 };
 

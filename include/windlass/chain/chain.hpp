@@ -141,6 +141,10 @@ class Chain {
   };
   Inertia inertia(const VectorXd& x, const Loads& loads, contact::Parity parity) const;
 
+  /// Eigenvalues of variations smaller than this are the zero of an arc that is about to buckle by itself; 0: no such
+  /// arc [EI/ρ²].
+  double neutral_size(const VectorXd& x, const Loads& loads) const;
+
   /// Second derivative of the energy with a slide δ of the whole rod along itself, everything else at rest under its
   /// contacts: d²Π/dδ² [EI/ρ³], from the last factor() at (x, loads). Zero without a slide to hold.
   double sliding_stiffness(const VectorXd& x, const Loads& loads) const;
@@ -222,9 +226,22 @@ class Chain {
                                          const std::vector<Coupled>& coupled, MatrixXd& dense);
   /// One more unknown of the dense block for each direction that the arc's factors hold; see bvp::Held.
   static std::vector<Coupled> held_by(const Arc& arc, MatrixXd& dense);
-  /// The dense block of a variation, interiors condensed with the last factorisation; symmetric.
+  /// The dense block of a variation, interiors condensed by the arcs' last factorisations; symmetric.
   MatrixXd condensed_variation(Purpose purpose, const Numbering& numbering, const VectorXd& x,
-                               const Loads& loads) const;
+                               const Loads& loads, const std::vector<const Arc*>& arcs,
+                               const std::vector<bvp::EndsMatrix>& condensed) const;
+  std::vector<const Arc*> arcs() const;
+  /// Is this the arc between a clamp and a line along it, which is about to buckle by itself, at any load
+  /// (contact::spatial::FreeRodEnd)? Or that between a clamp and a touch where the line begins, free of moment at both
+  /// ends? Its mode, zero at both ends, costs nothing to second order: a pivot of the interior alone is zero, with a sign
+  /// that the mesh makes.
+  bool neutral(const VectorXd& x, const Loads& loads, int link) const;
+  /// The neutral arc as factored where it is this much shorter: the mode then costs 2·1e-6 of the thrust, thousands of
+  /// times what mesh and state make of the zero (1e-8, PHYSICS "Struts between walls"), and other modes change by as
+  /// little.
+  static constexpr double shortened_by = 1e-6;
+  std::unique_ptr<Arc> shortened(const VectorXd& x, const Loads& loads, int link,
+                                 bvp::EndsMatrix& condensed) const;
   /// What one arc, condensed, adds to that block at its local unknowns.
   MatrixXd condensed_share(Purpose purpose, const Local& local, const Arc& arc,
                            const bvp::EndsMatrix& condensed, int link) const;

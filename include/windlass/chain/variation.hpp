@@ -19,9 +19,10 @@ class Linearisation {
  private:
   friend class Variation;
   struct Part {
-    std::unique_ptr<Arc> tail;  ///< in the place of a closed form; null: the chain's own arc
-    MatrixXd nodes;             ///< of the tail, both ends included; ambient × N
-    bool joint_first = true;    ///< of the tail: its joint is at its start
+    std::unique_ptr<Arc> shortened;  ///< factors of a neutral arc, see Chain::shortened; null: the arc's own
+    std::unique_ptr<Arc> tail;       ///< in the place of a closed form; null: the chain's own arc
+    MatrixXd nodes;                  ///< of the tail, both ends included; ambient × N
+    bool joint_first = true;         ///< of the tail: its joint is at its start
     const Arc* arc = nullptr;
     Chain::Placed placed;
     bvp::EndsMatrix condensed;
@@ -58,6 +59,9 @@ class Variation {
   int negative() const { return negative_; }
   /// May one of the eigenvalues be zero because a turn of the whole rod costs nothing (Chain::expect_neutral_turn)?
   bool neutral() const { return neutral_; }
+
+  /// Eigenvalues smaller than this are zero, see Chain::neutral_size; the inertia counts them as positive.
+  double neutral_size() const { return neutral_size_; }
 
   VectorXd rotations(const VectorXd& v) const;                ///< Wᵀ v
   VectorXd loads(const Eigen::Ref<const VectorXd>& y) const;  ///< W y
@@ -106,6 +110,7 @@ class Variation {
   Eigen::Index unknowns_ = 0;  ///< of the dense block, with those that v lacks (bvp::Held)
   int negative_ = 0;
   bool neutral_ = false;
+  double neutral_size_ = 0.0;
   VectorXd neutral_motion_;
   std::vector<Eigen::Index> locations_;  ///< rows of touches' arclengths in the dense block, −1: none
   MatrixXd condensed_;                   ///< dense block, before anything is held in it

@@ -16,7 +16,7 @@
 /// | length | length of a line contact, or of a gap between touches, less `least_length`; of a gap beside a line less what the
 /// line carries | a touch in its place; the line |
 /// | force | point force at a touch or an edge | the touch is lost (an edge: no successor is known) |
-/// | curvature | g'' at a touch | the touch flattens into a line, or comes apart into two |
+/// | curvature | g'' at a touch, on a plane less `least_curvature` | the touch flattens into a line, or comes apart into two |
 /// | graze | least gap inside a free arc, of each obstacle | a new touch |
 /// | buckling | margin of a line without pressure against its own buckling | it bows off the obstacle between two touches |
 ///
@@ -33,6 +33,13 @@ namespace windlass::equilibrium {
 inline constexpr double least_length = 1e-3;
 /// The curvature of two touches falls with the square of the gap between them; here it still is a hundred times its rounding.
 inline constexpr double least_between_touches = 5e-3;
+
+/// On a plane a touch whose curvature vanishes is where branches meet: between clamps the free part is a whole wave and about
+/// to buckle; beside a part that has bowed off the plane, straight and bowed states cross (PHYSICS, "Struts between walls").
+/// There the equations of the touch are singular, those of the line that follows are not: the touch gives way this early,
+/// and the event is located from the line's side. In units of the curvature f/√(B n) of a free part that ends where a
+/// line begins, with force f there.
+inline constexpr double least_curvature = 1e-3;
 
 /// Widths of suction a line carries for a gap, √5 and 5/3 times as long [ρ]. The height of the gap is then below 1e-11; energy
 /// and R_tot, which see the square of what the line does wrong, change by less than 1e-9, the moment at a touch by 1e-7.

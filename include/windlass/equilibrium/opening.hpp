@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "windlass/chain/singular_matrix.hpp"
@@ -29,6 +30,13 @@ void settle_shape(RodProblem& problem, Vector& x, Vector& p, const std::vector<i
 /// Solves for the state in which the link has the given length, and for p(0) with it.
 /// @returns whether Newton converged; x and p are the solution then, and unspecified otherwise
 bool solve_at_length(RodProblem& problem, Vector& x, Vector& p, int link, double length);
+
+/// Where a line that carries no pressure over its length begins: p(0) as its length goes to zero, at which it has no
+/// equations of its own and the touch in its place has singular ones.
+struct LineBegins {
+  double p, precision;
+};
+std::optional<LineBegins> where_line_begins(RodProblem& problem, Vector x, Vector p, int link);
 
 /// Lets a straight link bow off its obstacle, which it does at its buckling load: solves, p(0) free, for a state with a
 /// slight bow. A link that is straight solves the same equations at any load, so the bow is prescribed.

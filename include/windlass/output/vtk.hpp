@@ -1,10 +1,12 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "windlass/equilibrium/solution.hpp"
+#include "windlass/obstacle/surface.hpp"
 #include "windlass/output/run_folder.hpp"
 #include "windlass/scene/scene.hpp"
 
@@ -25,7 +27,10 @@ VtkRod vtk_rod(const equilibrium::Solution& solution, const scene::Scene& scene)
 /// The surface of the cylinder as quadrilaterals, from z = low to high; its radius is 1 less the rod's radius.
 std::string vtk_cylinder(const scene::Scene& scene, double low, double high);
 
-/// Writes rods of a run: `rod-POINT.vtp`, `forces-POINT.vtp`, `cylinder.vtp` and the collection that opens them all,
+/// A rectangle for each plane wall, as large as the box (of a rod) asks for.
+std::string vtk_walls(const obstacle::Set& obstacles, const Eigen::AlignedBox3d& box);
+
+/// Writes rods of a run: `rod-POINT.vtp`, `forces-POINT.vtp`, `cylinder.vtp` or `walls.vtp`, and the collection that opens them all,
 /// `STEM.pvd`. Several rods follow one another in ParaView's time, which is their number in the list.
 /// @param names  stored points, by label or "BRANCH-POINT"
 /// @return       the collection

@@ -18,6 +18,10 @@ namespace windlass::stability {
 equilibrium::Stability analyse(equilibrium::RodProblem& problem, const continuation::Vector& x,
                                const continuation::Vector& p, int count, bool modes, SpectrumSolver& solver);
 
+/// Modes of the whole rod, of both parities, that cost nothing at any load: of arcs about to buckle by themselves, see
+/// contact::spatial::FreeRodEnd.
+int neutral_modes(const equilibrium::RodProblem& problem);
+
 /// Displacement of the whole rod for an increment of the chain, and its character.
 equilibrium::Mode mode_of(equilibrium::RodProblem& problem, const continuation::Vector& x,
                           const continuation::Vector& p, const continuation::Vector& increment,

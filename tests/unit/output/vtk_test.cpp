@@ -8,6 +8,7 @@
 
 #include "support/temporary_folder.hpp"
 #include "synthetic_run.hpp"
+#include "windlass/obstacle/scene_obstacles.hpp"
 #include "windlass/output/error.hpp"
 #include "windlass/rod/capstan.hpp"
 
@@ -104,6 +105,26 @@ BOOST_AUTO_TEST_CASE(the_cylinder_is_closed_and_leaves_room_for_the_rod) {
   for (std::size_t i = 0; i < r.size(); i += 3)
     BOOST_TEST(std::abs(std::hypot(r[i], r[i + 1]) - 0.75) < 1e-12);
   for (const double corner : corners) BOOST_TEST(corner < static_cast<double>(count(piece, "Points")));
+}
+
+BOOST_AUTO_TEST_CASE(walls_are_rectangles_beside_the_rod) {
+  auto scene = test::capstan_scene(T, phi);
+  scene.has_cylinder = false;
+  scene.walls = {{{0.0, 1.0, 0.0}, 0.05}, {{0.0, -1.0, 0.0}, 0.05}};
+  const Eigen::AlignedBox3d box(Eigen::Vector3d(-0.5, -0.05, 0.0), Eigen::Vector3d(0.5, 0.05, 0.0));
+  const Tree file = parse(output::vtk_walls(obstacle::obstacles_of(scene), box));
+  const Tree& piece = piece_of(file);
+  const auto r = array(piece, "Points", "Points"), normals = array(piece, "PointData", "Normals");
+  BOOST_TEST_REQUIRE(count(piece, "Polys") == 2u);
+  BOOST_TEST_REQUIRE(count(piece, "Points") == 8u);
+  double least = 1.0, most = -1.0;
+  for (std::size_t i = 0; i < r.size(); i += 3) {
+    BOOST_TEST(std::abs(std::abs(r[i + 1]) - 0.05) < 1e-15);
+    BOOST_TEST(std::abs(normals[i + 1]) == 1.0);
+    least = std::min(least, r[i]), most = std::max(most, r[i]);
+  }
+  BOOST_TEST(least <= -0.5);
+  BOOST_TEST(most >= 0.5);
 }
 
 BOOST_AUTO_TEST_CASE(a_collection_names_the_files_of_a_branch) {
