@@ -71,11 +71,16 @@ bool StoppingRule::last(double length, double residual, double state_size, bool 
   constexpr double rounded_residual = 1e-3, visible = 1e-6;
   const bool exhausted = fresh && residual <= rounded_residual * allowed && length <= visible;
   bool stagnant = false;
+  // A far guess may be improved by corrections of any size at first.
+  constexpr int at_first = 5;
+  constexpr double away = 1e3;
+  if (guess_ == Guess::far && taken_ >= at_first && length > away)
+    throw std::runtime_error("Newton's corrections run away");
   if (taken_ > 0) {
     // A metric that leaves out some unknowns (forces, say) may hold small corrections before larger ones on a way that
     // converges: F tells.
     constexpr double falling = 0.1;
-    if (contraction(length) > 1.0 && length > 10.0 * rounding && !exhausted &&
+    if (guess_ == Guess::near && contraction(length) > 1.0 && length > 10.0 * rounding && !exhausted &&
         residual > falling * previous_residual_)
       throw std::runtime_error("Newton's corrections grow");
     stagnant = contraction(length) > 0.2;

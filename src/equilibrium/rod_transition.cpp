@@ -129,7 +129,7 @@ void adjust_length(Entry& entry, int link) {
 /// @param opened   links of `entry`, the one that keeps its length first
 /// @param as_long  as it is; else brought to the length that arcs are entered with
 std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, int depth, bool as_long) {
-  settle_shape(*entry.problem, entry.x, entry.p, opened);
+  if (!settle_shape(*entry.problem, entry.x, entry.p, opened)) return std::nullopt;
   if (!solve_at_length(*entry.problem, entry.x, entry.p, opened.front(), length_of(entry, opened.front())))
     return std::nullopt;
   const chain::Profile shape = entry.problem->profile(entry.x, entry.p);
