@@ -69,7 +69,11 @@ bool StoppingRule::last(double length, double residual, double state_size, bool 
   const double rounding = tolerance * std::max(1.0, state_size);
   // Where F is all rounding, corrections are what nearly singular equations make of it, and no other state is better.
   constexpr double rounded_residual = 1e-3, visible = 1e-6;
-  const bool exhausted = fresh && residual <= rounded_residual * allowed && length <= visible;
+  // On the way from a far guess to a state that is nearly singular corrections halve, and F falls to a quarter.
+  constexpr double still_falls = 0.3;
+  const bool falls = taken_ > 0 && residual <= still_falls * previous_residual_;
+  const bool exhausted = fresh && residual <= rounded_residual * allowed && length <= visible &&
+                         !(guess_ == Guess::far && falls);
   bool stagnant = false;
   // A far guess may be improved by corrections of any size at first.
   constexpr int at_first = 5;
@@ -88,9 +92,7 @@ bool StoppingRule::last(double length, double residual, double state_size, bool 
   const bool small = length <= tolerance || (stagnant && (exhausted || length <= rounding));
   // Where corrections are this small twice and F no longer falls, what is left of it is the rounding of its large terms
   // (those of an arc about to vanish, say).
-  constexpr double still_falls = 0.3;
-  const bool rounded = taken_ > 0 && previous_ <= tolerance && length <= 0.1 * tolerance &&
-                       residual > still_falls * previous_residual_;
+  const bool rounded = taken_ > 0 && previous_ <= tolerance && length <= 0.1 * tolerance && !falls;
   // What the last correction leaves of F goes on as before: a good part of what is allowed where they converge slowly.
   constexpr double left = 0.1;
   const double after = taken_ > 0 ? residual * std::min(1.0, residual / previous_residual_) : 0.0;

@@ -258,11 +258,11 @@ continuation::CorrectorReport RodProblem::solve_from_guess(const continuation::B
                                                            const SnesNewton::Part& part) {
   continuation::Options options;
   options.max_newton = most - 1;  // the last correction is not counted
-  const auto scaled = [&](const Loads& at) {
-    options.residual_scale = std::max({1.0, std::abs(at.tension), std::abs(at.thrust)});
-  };
+  // Meshes and branches start here: from states as exact as rounding lets them be, so that nothing depends on the guess.
+  options.newton_tolerance = 1e-12;
   try {
-    scaled(loads(iterate.p));
+    const Loads at = loads(iterate.p);
+    options.residual_scale = std::max({1.0, std::abs(at.tension), std::abs(at.thrust)});
   } catch (const std::domain_error& error) {
     continuation::CorrectorReport report;
     report.failure = error.what();
@@ -274,7 +274,7 @@ continuation::CorrectorReport RodProblem::solve_from_guess(const continuation::B
 int RodProblem::polish(Vector& x, const Vector& p, int most) {
   factored_x_.resize(0);
   if (size() == 0) return 0;   // one touch between infinite tails: nothing is unknown
-  constexpr double far = 0.6;  // [rad, ρ, EI/ρ²] beyond it the linearisation is worth nothing
+  static constexpr double far = 0.6;  // [rad, ρ, EI/ρ²] beyond it the linearisation is worth nothing
   continuation::Borders none;
   none.psi = none.c = Eigen::MatrixXd(size(), 0);
   continuation::Iterate iterate{x, Vector::Zero(size()), p, Vector(0)};
