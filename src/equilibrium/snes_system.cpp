@@ -156,12 +156,17 @@ PetscErrorCode SnesSystem::evaluate(SNES snes, Vec increment, Vec residual, void
   });
 }
 
+double SnesSystem::length_of_correction() const {
+  if (!part_) return system_->length(correction_);
+  return correction_.lpNorm<Eigen::Infinity>() / std::max(1.0, iterate_.x.lpNorm<Eigen::Infinity>());
+}
+
 void SnesSystem::find_correction() {
   const bool first = corrections_ == 0;
   bool fresh = first || part_;
   if (fresh) system_->factor();
   correction_ = system_->solve(defect_);
-  double length = system_->length(correction_);
+  double length = length_of_correction();
   report_.residual = system_->residual();
   // F tells how fast it goes where the metric leaves out most of the corrections.
   if (first) first_ = length, first_residual_ = report_.residual;
@@ -170,7 +175,7 @@ void SnesSystem::find_correction() {
   if (!fresh && rule_->slow(length)) {
     system_->factor();
     correction_ = system_->solve(defect_);
-    length = system_->length(correction_);
+    length = length_of_correction();
     fresh = true;
   }
   ++corrections_;

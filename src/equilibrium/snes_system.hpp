@@ -42,6 +42,8 @@ class SnesSystem {
   void move_to(Vec increment);
   /// The correction due at the iterate, and what the stopping rule says of it.
   void find_correction();
+  /// In the metric of the problem; from a far guess all unknowns count, those too that the metric leaves out.
+  double length_of_correction() const;
   /// J v by a central difference.
   void difference(const Eigen::VectorXd& v, Eigen::VectorXd& out);
   /// Runs f; what the problem throws becomes the failure of the solve. @returns whether it threw nothing
