@@ -146,11 +146,11 @@ void SnesSystem::move_to(Vec increment) {
 PetscErrorCode SnesSystem::evaluate(SNES snes, Vec increment, Vec residual, void* context) {
   return guard([&] {
     SnesSystem& self = *static_cast<SnesSystem*>(context);
-    const bool inside = self.reported([&] {
+    self.inside_ = self.reported([&] {
       self.move_to(increment);
       self.defect_ = self.system_->defect();
     });
-    if (!inside) return check(SNESSetFunctionDomainError(snes));
+    if (!self.inside_) return check(SNESSetFunctionDomainError(snes));
     self.work_ = -self.defect_;
     petsc::copy(self.work_, residual);
   });
@@ -182,7 +182,7 @@ void SnesSystem::find_correction() {
   done_ = rule_->last(length, report_.residual, system_->state_size(), fresh);
   due_ = true;
   report_.increment = length;
-  report_.factored_here = done_ && fresh && rule_->negligible(length);
+  report_.factored_here = done_ && fresh && !part_ && rule_->negligible(length);
 }
 
 PetscErrorCode SnesSystem::judge(SNES, PetscInt, PetscReal, PetscReal, PetscReal, SNESConvergedReason* reason,
@@ -262,9 +262,11 @@ PetscErrorCode SnesSystem::multiply(Mat shell, Vec in, Vec out) {
     // A line search asks for J δ, the right-hand side of the correction.
     if (self.due_ && self.work_ == -self.correction_) {
       self.work_ = -self.defect_;
-    } else {
+    } else if (self.inside_) {
       const VectorXd v = self.work_;
       self.difference(v, self.work_);
+    } else {
+      self.work_.setZero();  // SNES asks on giving up whether it stands at a minimum
     }
     petsc::copy(self.work_, out);
   });

@@ -66,6 +66,7 @@ class SnesSystem {
   Eigen::VectorXd increment_;   ///< of iterate_ from base_
   Eigen::VectorXd defect_;      ///< at iterate_
   Eigen::VectorXd correction_;  ///< due there
+  bool inside_ = false;         ///< F exists at iterate_
   bool due_ = false;            ///< correction_ is that of iterate_
   bool done_ = false;           ///< and the last one
   int corrections_ = 0, most_corrections_ = 0;

@@ -111,6 +111,7 @@ class StoppingRule {
 
  private:
   double contraction(double length) const { return length / previous_; }
+  bool over(double length, bool all_rounding) const;
 
   const Options& options_;
   const Guess guess_;

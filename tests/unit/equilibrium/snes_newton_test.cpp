@@ -82,7 +82,7 @@ BOOST_AUTO_TEST_CASE(an_exact_guess_takes_no_correction) {
 }
 
 BOOST_AUTO_TEST_CASE(the_library_s_own_corrector_gives_the_same_bits) {
-  // With few factorisations: the disturbance is small enough for some to serve twice, large enough for some to be renewed.
+  // The largest disturbance fails; of the others some let factors serve twice, some have them renewed.
   for (const double amplitude : {1e-5, 1e-3, 0.02}) {
     test::Coil coil = test::spatial_coil(1.2);
     test::ChainProblem problem(coil);
@@ -91,8 +91,9 @@ BOOST_AUTO_TEST_CASE(the_library_s_own_corrector_gives_the_same_bits) {
       Iterate snes = test::iterate_at(coil, disturbed(coil, amplitude), borders), own = snes;
       const CorrectorReport by_snes = SnesNewton().solve(problem, borders, snes, {});
       const CorrectorReport by_own = continuation::ChordNewton().solve(problem, borders, own, {});
-      BOOST_TEST(by_own.converged, by_own.failure);
-      BOOST_TEST(by_snes.converged == by_own.converged, by_snes.failure);
+      BOOST_TEST(by_own.converged == (amplitude < 0.01), by_own.failure);
+      BOOST_TEST(by_snes.converged == by_own.converged);
+      BOOST_TEST(by_snes.failure == by_own.failure);
       BOOST_TEST((snes.x - own.x).norm() == 0.0);
       BOOST_TEST((snes.p - own.p).norm() == 0.0);
       BOOST_TEST(by_snes.iterations == by_own.iterations);
