@@ -273,7 +273,7 @@ continuation::CorrectorReport RodProblem::solve_from_guess(const continuation::B
 
 int RodProblem::polish(Vector& x, const Vector& p, int most) {
   factored_x_.resize(0);
-  if (size() == 0) return 0;   // one touch between infinite tails: nothing is unknown
+  if (size() == 0) return 0;          // one touch between infinite tails: nothing is unknown
   static constexpr double far = 0.6;  // [rad, ρ, EI/ρ²] beyond it the linearisation is worth nothing
   continuation::Borders none;
   none.psi = none.c = Eigen::MatrixXd(size(), 0);

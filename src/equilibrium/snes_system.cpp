@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 
-/// The callbacks through which SNES sees a bordered system.
 namespace windlass::equilibrium {
 
 using continuation::BorderedSystem;
@@ -19,18 +17,11 @@ using continuation::StoppingRule;
 using Eigen::Index;
 using Eigen::VectorXd;
 using petsc::check;
-using petsc::guard;
 
 namespace {
 
 constexpr PetscInt plenty = 1000;  // of iterations: the options of a solve say how many
 constexpr PetscInt no_limit = -1;
-
-SnesSystem& of(SNES snes) {
-  void* context = nullptr;
-  check(SNESGetApplicationContext(snes, &context));
-  return *static_cast<SnesSystem*>(context);
-}
 
 }  // namespace
 
@@ -86,21 +77,6 @@ const Options& SnesSystem::with_users(const Options& options) {
   return own_;
 }
 
-template <class F>
-bool SnesSystem::reported(F&& f) {
-  try {
-    f();
-    return true;
-  } catch (const petsc::Error&) {
-    throw;
-  } catch (const std::domain_error& error) {
-    report_.failure = std::string("outside the domain: ") + error.what();
-  } catch (const std::runtime_error& error) {
-    report_.failure = error.what();
-  }
-  return false;
-}
-
 CorrectorReport SnesSystem::solve(Problem& problem, const Borders& borders, Iterate& iterate,
                                   const Options& given, const SnesNewton::Part* part) {
   const Options& options = with_users(given);
@@ -143,19 +119,6 @@ void SnesSystem::move_to(Vec increment) {
   due_ = false;
 }
 
-PetscErrorCode SnesSystem::evaluate(SNES snes, Vec increment, Vec residual, void* context) {
-  return guard([&] {
-    SnesSystem& self = *static_cast<SnesSystem*>(context);
-    self.inside_ = self.reported([&] {
-      self.move_to(increment);
-      self.defect_ = self.system_->defect();
-    });
-    if (!self.inside_) return check(SNESSetFunctionDomainError(snes));
-    self.work_ = -self.defect_;
-    petsc::copy(self.work_, residual);
-  });
-}
-
 double SnesSystem::length_of_correction() const {
   if (!part_) return system_->length(correction_);
   return correction_.lpNorm<Eigen::Infinity>() / std::max(1.0, iterate_.x.lpNorm<Eigen::Infinity>());
@@ -183,93 +146,6 @@ void SnesSystem::find_correction() {
   due_ = true;
   report_.increment = length;
   report_.factored_here = done_ && fresh && !part_ && rule_->negligible(length);
-}
-
-PetscErrorCode SnesSystem::judge(SNES, PetscInt, PetscReal, PetscReal, PetscReal, SNESConvergedReason* reason,
-                                 void* context) {
-  return guard([&] {
-    SnesSystem& self = *static_cast<SnesSystem*>(context);
-    *reason = SNES_DIVERGED_INNER;
-    self.reported([&] {
-      self.find_correction();
-      *reason = SNES_CONVERGED_ITERATING;
-      if (self.done_) {
-        if (!self.report_.factored_here) self.system_->add(self.correction_);
-        *reason = SNES_CONVERGED_SNORM_RELATIVE;
-      } else if (++self.report_.iterations > self.most_corrections_) {
-        std::ostringstream message;
-        message << "no convergence in " << self.most_corrections_ << " corrections (increment "
-                << self.report_.increment << ", residual " << self.report_.residual << ")";
-        self.report_.failure = message.str();
-        *reason = SNES_DIVERGED_MAX_IT;
-      }
-    });
-  });
-}
-
-PetscErrorCode SnesSystem::absorb(SNES snes, PetscInt) {
-  return guard([&] {
-    SnesSystem& self = of(snes);
-    Vec increment = nullptr;
-    check(SNESGetSolution(snes, &increment));
-    self.move_to(increment);
-    self.base_ = self.iterate_;
-    self.increment_.setZero();
-    check(VecSet(increment, 0.0));
-    // With another convergence test than ours (-snes_convergence_test) no one has asked for it.
-    if (self.due_) return;
-    if (!self.reported([&] { self.find_correction(); }))
-      check(SNESSetConvergedReason(snes, SNES_DIVERGED_INNER));
-    ++self.report_.iterations;
-  });
-}
-
-PetscErrorCode SnesSystem::shorten(SNESLineSearch, Vec, Vec step, PetscBool* changed, void* context) {
-  return guard([&] {
-    SnesSystem& self = *static_cast<SnesSystem*>(context);
-    *changed = PETSC_FALSE;
-    if (!self.part_) return;
-    petsc::copy(step, self.work_);
-    const double part = (*self.part_)(self.iterate_, -self.work_);
-    if (part >= 1.0) return;
-    check(VecScale(step, part));
-    *changed = PETSC_TRUE;
-  });
-}
-
-PetscErrorCode SnesSystem::apply_inverse(PC pc, Vec right_side, Vec solution) {
-  return guard([&] {
-    void* context = nullptr;
-    check(PCShellGetContext(pc, &context));
-    SnesSystem& self = *static_cast<SnesSystem*>(context);
-    petsc::copy(right_side, self.work_);
-    // Mostly the residual, whose correction is known. Others come from Krylov methods.
-    if (self.due_ && self.work_ == -self.defect_) {
-      self.work_ = -self.correction_;
-    } else if (const VectorXd r = self.work_; !self.reported([&] { self.work_ = self.system_->solve(r); })) {
-      self.work_.setConstant(std::numeric_limits<double>::quiet_NaN());
-    }
-    petsc::copy(self.work_, solution);
-  });
-}
-
-PetscErrorCode SnesSystem::multiply(Mat shell, Vec in, Vec out) {
-  return guard([&] {
-    void* context = nullptr;
-    check(MatShellGetContext(shell, &context));
-    SnesSystem& self = *static_cast<SnesSystem*>(context);
-    petsc::copy(in, self.work_);
-    // A line search asks for J δ, the right-hand side of the correction.
-    if (self.due_ && self.work_ == -self.correction_) {
-      self.work_ = -self.defect_;
-    } else if (self.inside_) {
-      const VectorXd v = self.work_;
-      self.difference(v, self.work_);
-    } else {
-      self.work_.setZero();  // SNES asks on giving up whether it stands at a minimum
-    }
-    petsc::copy(self.work_, out);
-  });
 }
 
 void SnesSystem::difference(const VectorXd& v, VectorXd& out) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 #include "windlass/equilibrium/snes_newton.hpp"
@@ -74,5 +75,20 @@ class SnesSystem {
   Eigen::VectorXd work_;
   continuation::Options own_;  ///< where the user's words change them
 };
+
+template <class F>
+bool SnesSystem::reported(F&& f) {
+  try {
+    f();
+    return true;
+  } catch (const petsc::Error&) {
+    throw;
+  } catch (const std::domain_error& error) {
+    report_.failure = std::string("outside the domain: ") + error.what();
+  } catch (const std::runtime_error& error) {
+    report_.failure = error.what();
+  }
+  return false;
+}
 
 }  // namespace windlass::equilibrium

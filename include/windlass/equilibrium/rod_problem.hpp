@@ -146,7 +146,7 @@ class RodProblem final : public continuation::Problem {
   contact::Loads base_;
   std::vector<double contact::Loads::*> fields_;  ///< where each parameter lives; null: rebuilds the rod
   SnesNewton newton_;
-  std::unique_ptr<chain::Chain> chain_, finer_;   ///< finer_: one more stage, for the error estimate
+  std::unique_ptr<chain::Chain> chain_, finer_;  ///< finer_: one more stage, for the error estimate
   std::vector<std::pair<Eigen::Index, double>>
       closures_;                    ///< rows and lengths of the last residual's short arcs
   Vector factored_x_, factored_p_;  ///< where chain_ was factored last; empty: unknown

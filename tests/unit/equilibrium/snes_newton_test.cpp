@@ -191,7 +191,7 @@ BOOST_AUTO_TEST_CASE(nothing_of_petsc_is_made_in_a_solve) {
   const int made = SnesNewton::made();
   const PetscObjectId before = next_object();
   for (int k = 0; k < 5; ++k) {
-    VectorXd again = disturbed(coil, 0.01 * k);
+    VectorXd again = disturbed(coil, 0.005 * k);
     BOOST_TEST(solve(coil, again).converged);
   }
   BOOST_TEST(SnesNewton::made() == made);
