@@ -69,23 +69,30 @@ bool StoppingRule::last(double length, double residual, double state_size, bool 
   const double rounding = tolerance * std::max(1.0, state_size);
   // Where F is all rounding, corrections are what nearly singular equations make of it, and no other state is better.
   constexpr double rounded_residual = 1e-3, visible = 1e-6;
+  constexpr double still_falls = 0.3;
+  const bool falls = taken_ > 0 && residual <= still_falls * previous_residual_;
   const bool exhausted = fresh && residual <= rounded_residual * allowed && length <= visible;
   bool stagnant = false;
+  // A far guess may be improved by corrections of any size at first.
+  constexpr int at_first = 5;
+  constexpr double away = 1e3;
+  if (guess_ == Guess::far && taken_ >= at_first && length > away)
+    throw std::runtime_error("Newton's corrections run away");
   if (taken_ > 0) {
     // A metric that leaves out some unknowns (forces, say) may hold small corrections before larger ones on a way that
     // converges: F tells.
     constexpr double falling = 0.1;
-    if (contraction(length) > 1.0 && length > 10.0 * rounding && !exhausted &&
+    if (guess_ == Guess::near && contraction(length) > 1.0 && length > 10.0 * rounding && !exhausted &&
         residual > falling * previous_residual_)
       throw std::runtime_error("Newton's corrections grow");
     stagnant = contraction(length) > 0.2;
   }
-  const bool small = length <= tolerance || (stagnant && (exhausted || length <= rounding));
+  const bool done = guess_ == Guess::far ? over(length, exhausted && !falls)
+                                         : stagnant && (exhausted || length <= rounding);
+  const bool small = length <= tolerance || done;
   // Where corrections are this small twice and F no longer falls, what is left of it is the rounding of its large terms
   // (those of an arc about to vanish, say).
-  constexpr double still_falls = 0.3;
-  const bool rounded = taken_ > 0 && previous_ <= tolerance && length <= 0.1 * tolerance &&
-                       residual > still_falls * previous_residual_;
+  const bool rounded = taken_ > 0 && previous_ <= tolerance && length <= 0.1 * tolerance && !falls;
   // What the last correction leaves of F goes on as before: a good part of what is allowed where they converge slowly.
   constexpr double left = 0.1;
   const double after = taken_ > 0 ? residual * std::min(1.0, residual / previous_residual_) : 0.0;
@@ -93,6 +100,13 @@ bool StoppingRule::last(double length, double residual, double state_size, bool 
   previous_ = length;
   previous_residual_ = residual;
   return small && (rounded || exhausted || (residual <= allowed && after <= left * allowed));
+}
+
+// From a far guess every correction has factors of its own: where one no longer shrinks it is rounding, magnified by what J
+// nearly lacks. (On the way to a nearly singular state corrections halve, and F falls to a quarter.)
+bool StoppingRule::over(double length, bool all_rounding) const {
+  constexpr double no_longer_shrinks = 0.3, least_visible = 1e-9;
+  return taken_ > 0 && contraction(length) > no_longer_shrinks && (all_rounding || length <= least_visible);
 }
 
 namespace {

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <stdexcept>
 
-#include "windlass/chain/singular_matrix.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/rod/quaternion.hpp"
 
@@ -13,14 +11,19 @@ namespace windlass::equilibrium {
 
 namespace {
 
+using continuation::Borders;
+using continuation::Iterate;
 using Eigen::MatrixXd;
 
-/// Borders of one Newton system: `count` columns and rows added to the chain's own.
-struct Borders {
-  Borders(Eigen::Index size, Eigen::Index count)
-      : b(MatrixXd::Zero(size, count)), c(MatrixXd::Zero(size, count)) {}
-  MatrixXd b, c;
-};
+/// `count` unknowns and equations to be filled in.
+Borders borders(Eigen::Index size, Eigen::Index count) {
+  Borders out;
+  out.psi = MatrixXd(size, 0);
+  out.c = MatrixXd::Zero(size, count);
+  out.d = MatrixXd::Zero(count, count);
+  out.g = Vector::Zero(count);
+  return out;
+}
 
 /// One slack an edge stands in for its location condition, and its arclength does not move: as many unknowns as rows.
 Borders hold_edges(const chain::Chain& chain, const std::vector<int>& opened) {
@@ -30,22 +33,21 @@ Borders hold_edges(const chain::Chain& chain, const std::vector<int>& opened) {
       if (chain.joint(joint).kind() == contact::JointKind::edge) edges.push_back(joint);
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  Borders held(chain.size(), static_cast<Eigen::Index>(edges.size()));
-  for (std::size_t k = 0; k < edges.size(); ++k) {
-    const Eigen::Index row = chain.arclength_row(edges[k]);
-    held.b(row, static_cast<Eigen::Index>(k)) = held.c(row, static_cast<Eigen::Index>(k)) = 1.0;
-  }
+  Borders held = borders(chain.size(), static_cast<Eigen::Index>(edges.size()));
+  for (std::size_t k = 0; k < edges.size(); ++k)
+    held.c(chain.arclength_row(edges[k]), static_cast<Eigen::Index>(k)) = 1.0;
+  held.psi = held.c;
   return held;
 }
 
-/// p(0) is one more unknown, the length of the link one more equation.
-Borders fix_length(RodProblem& problem, const Vector& x, const Vector& p, int link) {
-  const chain::Chain& chain = problem.chain();
-  Borders held(chain.size(), 1);
-  held.b.col(0) = problem.parameter_derivative(x, p, 0);
+/// p(0) is one more unknown, `change` of the link's length one more equation.
+Borders change_length(const chain::Chain& chain, int link, double change) {
+  Borders held = borders(chain.size(), 1);
+  held.parameter = 0;
   const Eigen::Index begin = chain.arclength_row(link), end = chain.arclength_row(link + 1);
   if (begin >= 0) held.c(begin, 0) = -1.0;
   if (end >= 0) held.c(end, 0) = 1.0;
+  held.g(0) = change;
   return held;
 }
 
@@ -64,19 +66,16 @@ double longest_part(const chain::Chain& chain, const Vector& x, const contact::L
   return part;
 }
 
-/// One Newton step, cut where an arc would lose more than half its length. @returns the largest uncut increment; infinity,
-/// and nothing is changed, where the increment is not finite
-double newton_step(RodProblem& problem, Vector& x, Vector& p, const Borders& borders, const Vector& goal,
-                   bool moves_p) {
-  const Eigen::Index size = problem.size(), count = borders.b.cols();
-  problem.factor(x, p, borders.b, borders.c, MatrixXd::Zero(count, count));
-  const Vector solution = problem.solve(-problem.residual(x, p), goal);
-  const Vector dx = solution.head(size);
-  if (!solution.allFinite()) return HUGE_VAL;
-  const double part = longest_part(problem.chain(), x, problem.loads(p), dx);
-  x = problem.retract(x, part * dx);
-  if (moves_p) p(0) += part * solution(size);
-  return dx.cwiseAbs().maxCoeff();
+/// Newton's method with steps cut where an arc would lose more than half its length.
+continuation::CorrectorReport solve_cut(RodProblem& problem, const Borders& held, Iterate& iterate,
+                                        int most) {
+  return problem.solve_from_guess(held, iterate, most, [&](const Iterate& at, const Vector& correction) {
+    return longest_part(problem.chain(), at.x, problem.loads(at.p), correction.head(problem.size()));
+  });
+}
+
+Iterate iterate_of(const RodProblem& problem, const Vector& x, const Vector& p, const Borders& held) {
+  return {x, Vector::Zero(problem.size()), p, Vector::Zero(held.g.size())};
 }
 
 /// Turns the tangents of a link towards `normal` by sin(waves·2πσ), as an increment.
@@ -120,34 +119,30 @@ BucklingMode buckling_mode(RodProblem& problem, const Vector& x, const Vector& p
 }  // namespace
 
 bool enter_bowed(RodProblem& problem, Vector& x, Vector& p, int link) {
-  constexpr double size = 1e-2;     // of the largest slope of the rod
-  constexpr double settled = 1e-8;  // converges by squares: what is left is rounding
+  constexpr double size = 1e-2;  // of the largest slope of the rod
   double slope = 0.0;
   for (const chain::Piece& piece : problem.profile(x, p).pieces)
     for (Eigen::Index k = 0; k < piece.s.size(); ++k)
       slope = std::max(slope, rod::directors(piece.q.col(k)).col(2).tail<2>().norm());
   const BucklingMode mode = buckling_mode(problem, x, p, link);
   x = problem.retract(x, size * slope * mode.whole);
-  try {
-    for (int k = 0; k < 20; ++k) {
-      Borders borders(problem.size(), 1);
-      borders.b.col(0) = problem.parameter_derivative(x, p, 0);
-      borders.c.col(0) = mode.link / mode.link.squaredNorm();
-      const double step = newton_step(problem, x, p, borders, Vector::Zero(1), true);
-      if (step < settled * std::max(1.0, x.cwiseAbs().maxCoeff())) return true;
-    }
-  } catch (const std::domain_error&) {  // a length left its domain
-  } catch (const chain::SingularMatrix&) {
-  }
-  return false;
+  Borders bowed = borders(problem.size(), 1);
+  bowed.parameter = 0;
+  bowed.c.col(0) = mode.link / mode.link.squaredNorm();
+  Iterate iterate = iterate_of(problem, x, p, bowed);
+  constexpr int most = 20;
+  const bool converged = solve_cut(problem, bowed, iterate, most).converged;
+  x = iterate.x, p = iterate.p;
+  return converged;
 }
 
-void settle_shape(RodProblem& problem, Vector& x, Vector& p, const std::vector<int>& opened) {
-  const Borders borders = hold_edges(problem.chain(), opened);
-  const Vector goal = Vector::Zero(borders.b.cols());
-  for (int k = 0; k < 4; ++k)
-    if (const double step = newton_step(problem, x, p, borders, goal, false); step < 1e-8 || std::isinf(step))
-      return;
+bool settle_shape(RodProblem& problem, Vector& x, Vector& p, const std::vector<int>& opened) {
+  const Borders held = hold_edges(problem.chain(), opened);
+  Iterate iterate = iterate_of(problem, x, p, held);
+  constexpr int most = 5;  // the last one is not taken: a start for what follows, no solution
+  const continuation::CorrectorReport report = solve_cut(problem, held, iterate, most);
+  x = iterate.x;
+  return report.converged || report.iterations == most;
 }
 
 std::optional<LineBegins> where_line_begins(RodProblem& problem, Vector x, Vector p, int link) {
@@ -168,20 +163,13 @@ std::optional<LineBegins> where_line_begins(RodProblem& problem, Vector x, Vecto
 }
 
 bool solve_at_length(RodProblem& problem, Vector& x, Vector& p, int link, double length) {
-  double last = 1e300;
-  int stalls = 0;
-  for (int k = 0; k < 20; ++k) {
-    const contact::Loads at = problem.loads(p);
-    const double now = problem.chain().length(x, at, link);
-    const Vector goal = Vector::Constant(1, length - now);
-    const double step = newton_step(problem, x, p, fix_length(problem, x, p, link), goal, true);
-    if (std::isinf(step)) return false;
-    // Converged, or as far as rounding lets a short arc: the increment is tiny and no longer falls.
-    if (step < 1e-5 && step > 0.3 * last) ++stalls;
-    if (step < 1e-12 || stalls >= (step < 1e-7 ? 1 : 3)) return true;
-    last = step;
-  }
-  return false;
+  const chain::Chain& chain = problem.chain();
+  const Borders held = change_length(chain, link, length - chain.length(x, problem.loads(p), link));
+  Iterate iterate = iterate_of(problem, x, p, held);
+  constexpr int most = 20;
+  const bool converged = solve_cut(problem, held, iterate, most).converged;
+  x = iterate.x, p = iterate.p;
+  return converged;
 }
 
 }  // namespace windlass::equilibrium

@@ -272,35 +272,37 @@ std::vector<double> RodProblem::joint_places(const Vector& x, const Vector& p, c
   return s;
 }
 
-int RodProblem::polish(Vector& x, const Vector& p, int most) {
-  factored_x_.resize(0);
-  if (size() == 0) return 0;  // one touch between infinite tails: nothing is unknown
+continuation::CorrectorReport RodProblem::solve_from_guess(const continuation::Borders& borders,
+                                                           continuation::Iterate& iterate, int most,
+                                                           const SnesNewton::Part& part) {
+  continuation::Options options;
+  options.max_newton = most - 1;  // the last correction is not counted
+  // Meshes and branches start here: from states as exact as rounding lets them be, so that nothing depends on the guess.
+  options.newton_tolerance = 1e-12;
   try {
-    return iterate(x, p, most);
-  } catch (const std::domain_error&) {  // a length or tension left its domain
-  } catch (const chain::SingularMatrix&) {
+    const Loads at = loads(iterate.p);
+    options.residual_scale = std::max({1.0, std::abs(at.tension), std::abs(at.thrust)});
+  } catch (const std::domain_error& error) {
+    continuation::CorrectorReport report;
+    report.failure = error.what();
+    return report;
   }
-  return -1;
+  return newton_.solve_from_guess(*this, borders, iterate, options, part);
 }
 
-int RodProblem::iterate(Vector& x, const Vector& p, int most) {
-  const Loads at = loads(p);
-  const Eigen::MatrixXd none(chain_->size(), 0), corner(0, 0);
-  double last = 1e300;
-  for (int k = 0; k < most; ++k) {
-    const Vector f = chain_->residual(x, at);
-    if (!f.allFinite()) return -1;
-    chain_->factor(x, at, none, none, corner);
-    const Vector dx = chain_->solve(-f, Vector(0));
-    const double step = dx.cwiseAbs().maxCoeff();
-    if (!std::isfinite(step) || (k > 4 && step > 1e3)) return -1;
-    const double scale = std::max(1.0, x.cwiseAbs().maxCoeff());
-    x = chain_->retract(x, step > 0.6 ? Vector(dx * (0.6 / step)) : dx);
-    // Converged, or as far as rounding lets it: the increment is tiny and no longer falls.
-    if (step < 1e-12 * scale || (step < 1e-9 * scale && step > 0.3 * last)) return k;
-    last = step;
-  }
-  return -1;
+int RodProblem::polish(Vector& x, const Vector& p, int most) {
+  factored_x_.resize(0);
+  if (size() == 0) return 0;          // one touch between infinite tails: nothing is unknown
+  static constexpr double far = 0.6;  // [rad, ρ, EI/ρ²] beyond it the linearisation is worth nothing
+  continuation::Borders none;
+  none.psi = none.c = Eigen::MatrixXd(size(), 0);
+  continuation::Iterate iterate{x, Vector::Zero(size()), p, Vector(0)};
+  const continuation::CorrectorReport report =
+      solve_from_guess(none, iterate, most, [](const continuation::Iterate&, const Vector& dx) {
+        return far / std::max(far, dx.cwiseAbs().maxCoeff());
+      });
+  if (report.converged) x = iterate.x;
+  return report.converged ? report.iterations : -1;
 }
 
 double RodProblem::target(const chain::Chain& chain, const Vector& x, const Loads& at) const {

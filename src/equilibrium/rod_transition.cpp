@@ -187,7 +187,7 @@ void adjust_length(Entry& entry, int link) {
 /// @param opened   links of `entry`, the one that keeps its length first
 /// @param as_long  as it is; else brought to the length that arcs are entered with
 std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, int depth, bool as_long) {
-  settle_shape(*entry.problem, entry.x, entry.p, opened);
+  if (!settle_shape(*entry.problem, entry.x, entry.p, opened)) return std::nullopt;
   const double length = length_of(entry, opened.front());
   if (!solve_at_length(*entry.problem, entry.x, entry.p, opened.front(), length)) return std::nullopt;
   // What is admissible is judged on a mesh that is fine enough: events that only a finer one shows would be passed unseen.

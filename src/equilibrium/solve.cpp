@@ -8,7 +8,6 @@
 #include <functional>
 
 #include "windlass/equilibrium/equilibria.hpp"
-#include "windlass/equilibrium/newton.hpp"
 #include "windlass/equilibrium/record.hpp"
 #include "windlass/equilibrium/search.hpp"
 #include "windlass/rod/capstan.hpp"
@@ -22,17 +21,7 @@ using scene::ModelKind;
 
 namespace {
 
-/// Puts a state through SNES: the polish of the cold start is checked by PETSc's own convergence criteria.
-void confirm(Started& started) {
-  NewtonSolver newton;
-  const NewtonResult result =
-      newton.solve(started.problem->chain_to_factor(), started.x, started.problem->loads(started.p));
-  if (!result.converged) throw NoEquilibrium("SNES did not accept the state: " + result.reason);
-  started.newton_iterations += result.iterations;
-}
-
 Solution finish(Started& started, const std::string& reason) {
-  confirm(started);
   started.problem->error_estimate(started.x, started.p);
   Solution solution = record(*started.problem, started.x, started.p);
   solution.newton_iterations = started.newton_iterations;

@@ -17,6 +17,13 @@ const std::string strut = "[rod]\nlength = 1.0\n[load]\nthrust = 3.0\n[ends]\nki
 
 std::size_t lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
 
+/// How often `part` stands in `text`.
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
 /// Runs the program with its standard output on a full disk.
 Outcome on_a_full_disk(const std::string& words, const fs::path& folder) {
   const std::string command = "cd " + quoted(folder.string()) + " && " +
@@ -54,6 +61,33 @@ BOOST_AUTO_TEST_CASE(petsc_options_nobody_asked_for) {
       run_program({"solve", "strut.toml", "--json", "--", "-snes_max_it", "40"}, folder.path());
   BOOST_TEST(right.status == 0);
   BOOST_TEST(right.err == "");
+}
+
+BOOST_AUTO_TEST_CASE(petsc_options_act_on_every_solve_of_a_branch) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> diagram = {
+      "diagram", shipped_scene("capstan-2pi"), "--out", "run", "--force", "--set", "continuation.to=1"};
+  const auto with = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> words = diagram;
+    words.push_back("--");
+    words.insert(words.end(), options.begin(), options.end());
+    return run_program(words, folder.path());
+  };
+  const Outcome watched = with({"-snes_monitor", "-snes_converged_reason"});
+  BOOST_TEST_REQUIRE(watched.status == 0, watched.err);
+  BOOST_TEST(!contains(watched.err, "-snes"), watched.err);  // nobody asked for it
+  // A point was solved for at least once, and its last correction found at one state more than it took corrections.
+  const Table table = read_csv(folder / "run/branches.csv");
+  std::size_t corrections = 0;
+  for (const auto& row : table.rows) corrections += std::stoul(row.at("newton_iterations"));
+  BOOST_TEST_REQUIRE(table.rows.size() > 20u);
+  BOOST_TEST(count(watched.out, "SNES Function norm") >= corrections + table.rows.size());
+  BOOST_TEST(count(watched.out, "Nonlinear solve converged") >= table.rows.size());
+
+  // One correction is too few for a step of the usual length: the walk takes many short ones, or gives up.
+  const std::string usual = slurp(folder / "run/branches.csv");
+  with({"-snes_max_it", "1"});
+  BOOST_TEST(slurp(folder / "run/branches.csv") != usual);
 }
 
 BOOST_AUTO_TEST_CASE(what_was_not_reached_is_said) {

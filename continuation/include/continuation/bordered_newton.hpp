@@ -92,14 +92,18 @@ class BorderedSystem {
 /// rounding leaves of a state with large entries.
 class StoppingRule {
  public:
-  explicit StoppingRule(const Options& options) : options_(options) {}
+  /// From a far guess corrections may grow, as long as they do not run away.
+  enum class Guess { near, far };
+
+  explicit StoppingRule(const Options& options, Guess guess = Guess::near)
+      : options_(options), guess_(guess) {}
 
   /// Of a correction found with an old factorisation: would three more such corrections not do?
   bool slow(double length) const;
 
   /// Takes in a correction at a state with this residual and size, `fresh` if found with that state's own factorisation;
   /// true if it is the last one.
-  /// @throws std::runtime_error if corrections grow
+  /// @throws std::runtime_error if corrections grow (near guess) or run away (far guess)
   bool last(double length, double residual, double state_size, bool fresh);
 
   /// So small a correction need not be added: the factorisation then belongs to the state exactly.
@@ -107,8 +111,10 @@ class StoppingRule {
 
  private:
   double contraction(double length) const { return length / previous_; }
+  bool over(double length, bool all_rounding) const;
 
   const Options& options_;
+  const Guess guess_;
   int taken_ = 0;
   double previous_ = 0.0, previous_residual_ = 0.0;
 };

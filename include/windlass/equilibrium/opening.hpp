@@ -24,8 +24,10 @@ bool tried(Step&& step) {
   return false;
 }
 
-/// Lets the shape adjust while the edges of the opened links stay where they are, their location conditions waived.
-void settle_shape(RodProblem& problem, Vector& x, Vector& p, const std::vector<int>& opened);
+/// Lets the shape adjust while the edges of the opened links stay where they are, their location conditions waived: a few
+/// corrections, as a start for what follows.
+/// @returns false where the matrix has no inverse or a length or tension leaves its domain
+bool settle_shape(RodProblem& problem, Vector& x, Vector& p, const std::vector<int>& opened);
 
 /// Solves for the state in which the link has the given length, and for p(0) with it.
 /// @returns whether Newton converged; x and p are the solution then, and unspecified otherwise

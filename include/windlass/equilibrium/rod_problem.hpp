@@ -11,6 +11,7 @@
 #include "windlass/chain/guess.hpp"
 #include "windlass/chain/profile.hpp"
 #include "windlass/chain/topology.hpp"
+#include "windlass/equilibrium/snes_newton.hpp"
 #include "windlass/scene/scene.hpp"
 
 /// Equilibria of a rod as the continuation library sees them.
@@ -66,6 +67,7 @@ class RodProblem final : public continuation::Problem {
                                                      const Vector& p) override;
   std::optional<Vector> adapt(const Vector& x, const Vector& p) override;
   Vector fingerprint(const Vector& x, const Vector& p) override;
+  continuation::BorderedNewton* newton() override { return &newton_; }
   std::shared_ptr<continuation::Problem> clone() const override;
 
   /// Relative error of R_tot (strut: end force): the change under one Newton step with one more stage an element.
@@ -74,9 +76,13 @@ class RodProblem final : public continuation::Problem {
   /// Remeshes until error_estimate() is below the scene's tolerance, or `rounds` are used; returns the new state.
   /// @throws NoEquilibrium if Newton fails on a refined mesh
   Vector refine(Vector x, const Vector& p, int rounds = 6);
-  /// Newton at fixed p on the bare chain.
+  /// Solves from a guess at fixed p, in at most `most` corrections.
   /// @returns iterations used, or −1: no convergence, a singular matrix, or an iterate out of the domain
   int polish(Vector& x, const Vector& p, int most = 25);
+  /// The same with borders; only a part of every correction is taken.
+  continuation::CorrectorReport solve_from_guess(const continuation::Borders& borders,
+                                                 continuation::Iterate& iterate, int most,
+                                                 const SnesNewton::Part& part);
   /// Lets a full chain slide along itself until nothing holds it: Newton in the gauge's place c for λ(c) = 0, which stays
   /// well conditioned where sliding costs next to nothing. Done when λ is below 1e-10 of the pulls.
   bool settle(Vector& x, const Vector& p) override;
@@ -97,7 +103,6 @@ class RodProblem final : public continuation::Problem {
   double as_given(double p, std::size_t k = 0) const;
 
   const chain::Chain& chain() const { return *chain_; }
-  chain::Chain& chain_to_factor() { return factored_x_.resize(0), *chain_; }
   const Topology& topology() const { return topology_; }
   const chain::RodKind& rod() const { return rod_; }
   const std::vector<chain::ArcMesh>& meshes() const { return meshes_; }
@@ -125,7 +130,6 @@ class RodProblem final : public continuation::Problem {
   /// Negative directions of one parity; counted once a state. The last factorisation, if it was not, was made there.
   /// Of eigenvalues whose sign rounding has made as many are counted as brings the count closest to `last`; −1: none.
   int count(const Vector& x, const Vector& p, contact::Parity parity, int last = -1);
-  int iterate(Vector& x, const Vector& p, int most);  ///< polish(), which may throw
   bool degenerate(const Vector& x, const contact::Loads& at) const;
   /// Errors divided by what is allowed: of the target by the tolerance, of the nodes by the certificate's level.
   double excess(const Vector& x, const Vector& p);
@@ -145,7 +149,8 @@ class RodProblem final : public continuation::Problem {
   chain::RodKind rod_;
   contact::Loads base_;
   std::vector<double contact::Loads::*> fields_;  ///< where each parameter lives; null: rebuilds the rod
-  std::unique_ptr<chain::Chain> chain_, finer_;   ///< finer_: one more stage, for the error estimate
+  SnesNewton newton_;
+  std::unique_ptr<chain::Chain> chain_, finer_;  ///< finer_: one more stage, for the error estimate
   std::vector<std::pair<Eigen::Index, double>>
       closures_;                    ///< rows and lengths of the last residual's short arcs
   Vector factored_x_, factored_p_;  ///< where chain_ was factored last; empty: unknown

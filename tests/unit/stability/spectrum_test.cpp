@@ -4,9 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "unit/equilibrium/coil.hpp"
+#include "unit/equilibrium/chain_problem.hpp"
 #include "unit/stability/dense_spectrum.hpp"
-#include "windlass/equilibrium/newton.hpp"
 
 using namespace windlass;
 using chain::Chain;
@@ -46,7 +45,11 @@ Strut strut(double tension, bool clamped, int elements, int stages = 6) {
 
 test::Coil equilibrium_coil(double tension) {
   test::Coil coil = test::spatial_coil(tension);
-  BOOST_TEST_REQUIRE(equilibrium::NewtonSolver().solve(coil.chain, coil.x, coil.loads).converged);
+  test::ChainProblem problem(coil);
+  const continuation::Borders none_bordered = test::no_borders(problem);
+  continuation::Iterate iterate = test::iterate_at(coil, coil.x, none_bordered);
+  BOOST_TEST_REQUIRE(continuation::ChordNewton().solve(problem, none_bordered, iterate, {}).converged);
+  coil.x = iterate.x;
   const MatrixXd none(coil.chain.size(), 0);
   coil.chain.factor(coil.x, coil.loads, none, none, MatrixXd(0, 0));
   return coil;
