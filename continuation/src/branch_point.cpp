@@ -104,7 +104,8 @@ std::optional<BranchPoint> polish_simple(Problem& problem, const Options& option
     const bool small = std::abs(dz[0]) <= tolerance && size <= 1e-7 + tolerance;
     if (small && (size <= 1e-2 * tolerance || size > 0.3 * previous || k == 11)) {
       if (const std::optional<Matrix2> fresh = gradient.central_hessian(z, steps)) hessian = *fresh;
-      if (!gradient(z)) return why = reduced.failure(), std::nullopt;
+      const std::optional<Vector2> left = gradient(z);
+      if (!left) return why = reduced.failure(), std::nullopt;
       BranchPoint point;
       const Reduced::Value& at = gradient.value();
       // y ≠ 0 at its saddle: an imperfect crossing, whose two parts are sqrt(|y|/|H|) apart.
@@ -113,8 +114,11 @@ std::optional<BranchPoint> polish_simple(Problem& problem, const Options& option
       point.x = at.it.x;
       point.p = at.it.p;
       point.u = at.it.u;
-      point.precision =
-          scale * std::max(std::abs(dz[0]), 4.0 * std::numeric_limits<double>::epsilon() * std::abs(z[0]));
+      // Of steps that are all rounding one may be small by chance: the step that would follow, and what rounding of the
+      // equations, at the level that Newton's method reaches, does to their zero.
+      const double next = std::abs((hessian.inverse() * *left)[0]);
+      point.precision = scale * std::max({std::abs(dz[0]), next,
+                                          4.0 * std::numeric_limits<double>::epsilon() * std::abs(z[0])});
       point.polished = true;
       point.null = reduced.refreshed(at);
       const std::vector<Vector2> directions = isotropic_directions(hessian);

@@ -89,9 +89,14 @@ std::vector<chain::ArcMesh> RodProblem::new_meshes(const Vector& x, const Loads&
     const bvp::Arc& arc = *chain_->link(i).arc;
     if (arc.elements() == 0) continue;
     const chain::Chain::Placed placed = chain_->place(x, at, i);
-    for (double c : arc.resolution(placed.point())) {
-      // Each element's share of the error density; the floor keeps smooth stretches meshed.
-      weights[i].push_back(std::pow(c + 1e-9, 1.0 / arc.stages()));
+    // Each element's share of the error density; the floor keeps smooth stretches meshed. It goes with the length, so that
+    // an arc which shrinks sheds its elements: in a short one each is a place more where rounding of the frames bends it.
+    constexpr double smooth = 0.03;  // a unit of length
+    const std::vector<double> resolution = arc.resolution(placed.point());
+    for (std::size_t e = 0; e < resolution.size(); ++e) {
+      const double length =
+          placed.length * (meshes_[i].nodes[e + 1] - meshes_[i].nodes[e]) / rod_.unit_length;
+      weights[i].push_back(std::pow(resolution[e], 1.0 / arc.stages()) + smooth * std::min(1.0, length));
       total += weights[i].back();
     }
     elements += arc.elements();
@@ -208,8 +213,7 @@ std::string RodProblem::unsettled(const Vector& x, const Vector& dx) const {
 }
 
 double RodProblem::sliding_stiffness(const Vector& x, const Vector& p) {
-  total_index(x, p);  // leaves the factorisation
-  return chain_->sliding_stiffness(x, loads(p));
+  return factored(x, p).sliding_stiffness(x, loads(p));
 }
 
 std::optional<Vector> RodProblem::adapt(const Vector& x, const Vector& p) {

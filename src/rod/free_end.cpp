@@ -55,7 +55,15 @@ FreeEnd free_end(double u, double q) {
   return {ratio, at.by_log_ratio, -at.by_q * ratio / at.by_log_ratio, ratio / at.by_log_ratio};
 }
 
-double bending(double ratio, double slope, double q) {
+double bending(double ratio, double slope, double q, double u) {
+  constexpr double close =
+      0.05;  // the series' next term is u⁹ there, 1e-16, and the formula loses 1/u² of its digits
+  if (u < close && ratio > 0.0) {
+    // ψ'' = sin ψ from ψ_e at rest, in powers of u: ¼ ∫ ψ'² du.
+    const double end = ratio * q, c = 1.0 - 2.0 * end, s2 = 4.0 * end * (1.0 - end), u2 = u * u;
+    const double third = (c * c / 36.0 + (c * c - 3.0 * s2) / 60.0) / 28.0;
+    return s2 * u * u2 * (1.0 / 12.0 + u2 * (c / 60.0 + u2 * third));
+  }
   // ∫ (ψ'/2)² du = E(u) − k'² u − k² sn cd of the modulus k² = 1 − ρq, and that is the derivative of u by the modulus.
   return -2.0 * (1.0 - ratio * q) * slope - std::sqrt((1.0 - q) / (1.0 - ratio));
 }

@@ -29,7 +29,7 @@ double time_from_end(double ratio, double q);
 /// The free end u decay lengths away. @param u  > 0
 FreeEnd free_end(double u, double q);
 
-/// Bending energy between here and the end, over 2 √(B T).
-double bending(double ratio, double log_slope, double q);
+/// Bending energy between here and the end, over 2 √(B T). @param u  u(ρ, q)
+double bending(double ratio, double log_slope, double q, double u);
 
 }  // namespace windlass::rod

@@ -106,7 +106,7 @@ Eigen::VectorXd TailArc::metric(const ArcPoint& at) const {
 
 double TailArc::energy(const ArcPoint& at) const {
   const State s = state(at);
-  return 2.0 * s.root * bending(s.end.ratio, s.end.log_slope, s.q);
+  return 2.0 * s.root * bending(s.end.ratio, s.end.log_slope, s.q, s.rate * at.length);
 }
 
 /// One sample: distance from the joint, angle to the pull, way made along the pull and across, size of the moment.
@@ -132,7 +132,7 @@ TailArc::Place TailArc::place(const State& s, double length, int sample) const {
   const double start = std::abs(s.psi), moment = 2.0 * s.root * std::sqrt(s.q * (1.0 - rho));
   if (sample == 0) return {0.0, start, 0.0, 0.0, moment};
   Place p{length * x * x, 0.0, 0.0, 0.0, 0.0};
-  double q = 0.0, ratio = 0.0, slope = -0.5;
+  double q = 0.0, ratio = 0.0, slope = -0.5, from_end = HUGE_VAL;
   if (rho > 0.0) {
     // A straight tail has sin²(ψ/2) ∝ cosh²u; near it that spaces the samples, and u is exact for each.
     const double v = std::acosh(1.0 / std::sqrt(rho)) * (1.0 - x * x), grown = std::cosh(v);
@@ -143,6 +143,7 @@ TailArc::Place TailArc::place(const State& s, double length, int sample) const {
       const Elapsed rest = elapsed(ratio, q);
       p.distance = length - rest.u / s.rate;
       slope = rest.log_slope;
+      from_end = rest.u;
     }
   } else {
     const double e = std::tan(0.25 * start) * std::exp(-s.rate * p.distance), wide = 1.0 + e * e;
@@ -150,8 +151,8 @@ TailArc::Place TailArc::place(const State& s, double length, int sample) const {
   }
   p.psi = 2.0 * std::asin(std::sqrt(q));
   p.moment = 2.0 * s.root * std::sqrt(q * (1.0 - ratio));
-  const double rest = ratio < 1.0 ? bending(ratio, slope, q) : 0.0;
-  const double spent = bending(rho, s.end.log_slope, s.q) - rest;
+  const double rest = ratio < 1.0 ? bending(ratio, slope, q, from_end) : 0.0;
+  const double spent = bending(rho, s.end.log_slope, s.q, s.rate * length) - rest;
   p.ahead = (1.0 - 2.0 * rho * s.q) * p.distance - 2.0 * s.root / s.tension * spent;
   p.aside = (moment - p.moment) / s.tension;
   return p;

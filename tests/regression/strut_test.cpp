@@ -44,6 +44,40 @@ BOOST_AUTO_TEST_CASE(buckling_of_an_isotropic_strut_is_a_double_branch_point_wit
   BOOST_TEST(run_program({"verify", "run"}, folder.path()).status == 0);
 }
 
+// In the plane a half strut turns about the line of its ends at no cost while it is held at both of its own: the arc is
+// singular by itself on the whole branch, and its elimination must not lose digits for that.
+BOOST_AUTO_TEST_CASE(the_loss_out_of_the_plane_is_where_its_precision_says) {
+  double first = 0.0, printed = 0.0;
+  for (const char* tolerance : {"1e-9", "1e-10", "1e-11", "1e-12"}) {
+    const TemporaryFolder folder;
+    const Outcome outcome =
+        run_program({"diagram", shipped_scene("strut-clamped"), "--set",
+                     "model.tolerance=" + std::string(tolerance), "--no-eigenvalues", "--out", "run"},
+                    folder.path());
+    BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    const json loss = json::parse(slurp(folder.path() / "run" / "special_points.json"))[0];
+    const double at = loss["parameter"], precision = loss["precision"];
+    BOOST_TEST(std::abs(at - 0.542673) < 1e-6);  // finite-difference rod, six digits
+    BOOST_TEST(precision < 1e-10);
+    // Twelve digits, and 3e-12 of rounding that one run cannot see.
+    if (first > 0.0) BOOST_TEST(std::abs(at - first) < printed + precision + 1e-11);
+    if (first == 0.0) first = at, printed = precision;
+  }
+}
+
+// Pushed to nearly twice its length the strut is a small loop whose way along the rod costs exp(-33) of the rest: less than
+// rounding. Its sign is no branch point.
+BOOST_AUTO_TEST_CASE(rounding_makes_no_branch_points_in_a_long_loop) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run_program({"diagram", shipped_scene("strut-clamped"), "--set",
+                                       "continuation.to=1.95", "--no-eigenvalues", "--out", "run"},
+                                      folder.path());
+  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  const json specials = json::parse(slurp(folder.path() / "run" / "special_points.json"));
+  BOOST_TEST_REQUIRE(specials.size() == 2u);  // the loss out of the plane, and the ends that meet
+  BOOST_TEST(std::abs(specials[1]["parameter"].get<double>() - 1.0) < 1e-9);
+}
+
 BOOST_AUTO_TEST_CASE(michells_ring_buckles_in_two_modes_at_once) {
   const TemporaryFolder folder;
   const Outcome outcome =

@@ -103,6 +103,7 @@ class RodProblem final : public continuation::Problem {
   double as_given(double p, std::size_t k = 0) const;
 
   const chain::Chain& chain() const { return *chain_; }
+  chain::Chain& chain_to_factor() { return factored_x_.resize(0), *chain_; }
   const Topology& topology() const { return topology_; }
   const chain::RodKind& rod() const { return rod_; }
   const std::vector<chain::ArcMesh>& meshes() const { return meshes_; }

@@ -176,7 +176,7 @@ BOOST_AUTO_TEST_CASE(a_short_tails_samples_lie_on_its_own_curve) {
       TailArc tail(2, 1.0, true, TailArc::End::moment_free);
       const ArcPoint at{&theta, &theta, nullptr, n.data(), length};
       const auto samples = tail.sample(at);
-      for (const Eigen::Index k : {1, 4, 16}) {
+      for (const Eigen::Index k : {1, 4, 16, 30, 31}) {
         constexpr int parts = 512;
         const double step = samples.sigma(k) * length / parts;
         const Eigen::VectorXd distances = Eigen::VectorXd::LinSpaced(parts + 1, 0.0, parts * step);
