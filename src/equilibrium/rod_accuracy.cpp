@@ -171,7 +171,9 @@ std::optional<Vector> RodProblem::moved_to(std::vector<chain::ArcMesh> meshes, c
     const double too_large = excess(fresh, p);
     // What rounding is forgiven no coarser mesh may add.
     if (within && too_large <= 1.0 && nodal_error_ <= std::max(nodal_goal(), old_nodal)) return fresh;
-    if (!within && (last_error_ > scene_.model.tolerance || nodal_error_ < 0.3 * old_nodal)) return fresh;
+    // A thirtieth was asked for: a mesh that brings much less has met rounding, which changes by chance.
+    constexpr double by_mesh = 0.05;
+    if (!within && (last_error_ > scene_.model.tolerance || nodal_error_ < by_mesh * old_nodal)) return fresh;
     if (!within) nodal_floor_ = std::max(nodal_error_, old_nodal);  // rounding: no mesh helps
   }
   meshes_ = old_meshes;  // keep what works
@@ -225,7 +227,7 @@ std::optional<Vector> RodProblem::adapt(const Vector& x, const Vector& p) {
 std::optional<Vector> RodProblem::remeshed_where_needed(const Vector& x, const Vector& p) {
   // A mesh far finer than needed costs as much as one too coarse: shed when a quarter of it or more is superfluous.
   constexpr double superfluous = 1e-3, worthwhile = 0.75;
-  constexpr double forgotten = 0.8;  // a point: near an event rounding may be large, and soon is not
+  constexpr double forgotten = 0.9;  // a point: near an event rounding may be large, and soon is not
   nodal_floor_ *= forgotten;
   const double too_large = excess(x, p);
   // A straight strut is exact on any mesh, which says nothing about its modes: their loads need the mesh it has.
