@@ -94,24 +94,31 @@ double reach(double p, double b, double a, double most) {
   return std::min(most, -2.0 * p / (b + std::sqrt(root)));
 }
 
-/// Where a line contact pulls, about its least pressure; no length where it does not.
+/// Local minima of a line's pressure, the least first; each with where the line pulls about it: no length where it does not.
 /// A line that carries no pressure over its length is no less in contact for that; see rod::buckling_margin.
-ContactEvent least_pressure(const Piece& line, int link, bool begins_at_mid) {
-  if (line.buckling) return {Kind::pressure, link, far, line.s(0)};
-  Eigen::Index k = 0;
-  line.p.minCoeff(&k);
-  const Least least = least_near(line, line.p, k);
-  ContactEvent event{Kind::pressure, link, least.value, least.s, least.s, least.s};
-  const double begin = line.s(0), end = line.s(line.s.size() - 1);
+std::vector<ContactEvent> dips(const Piece& line, int link, bool begins_at_mid) {
+  if (line.buckling) return {{Kind::pressure, link, far, line.s(0)}};
+  const Eigen::Index last = line.s.size() - 1;
+  const double begin = line.s(0), end = line.s(last);
   // Pressed evenly it lifts all at once, and a line that shrinks to nothing is not cut.
   const bool even = line.p.maxCoeff() - line.p.minCoeff() < 1e-6;
-  event.passes = !even && end - begin > 10.0 * least_length;
-  if (least.value >= 0.0) return event;
-  const auto [b, a] = slopes(line, least.s);
-  event.from = least.s - reach(least.value, -b, a, least.s - begin);
-  event.to = least.s + reach(least.value, b, a, end - least.s);
-  if (begins_at_mid && event.from <= begin) event.from = begin - (event.to - begin);
-  return event;
+  std::vector<ContactEvent> out;
+  for (Eigen::Index k = 0; k <= last; ++k) {
+    // The deepest minimum need not be next to the least sample.
+    if ((k > 0 && line.p(k - 1) < line.p(k)) || (k < last && line.p(k + 1) < line.p(k))) continue;
+    const Least least = least_near(line, line.p, k);
+    ContactEvent event{Kind::pressure, link, least.value, least.s, least.s, least.s};
+    event.passes = !even && end - begin > 10.0 * least_length;
+    if (least.value < 0.0) {
+      const auto [b, a] = slopes(line, least.s);
+      event.from = least.s - reach(least.value, -b, a, least.s - begin);
+      event.to = least.s + reach(least.value, b, a, end - least.s);
+      if (begins_at_mid && event.from <= begin) event.from = begin - (event.to - begin);
+    }
+    out.push_back(event);
+  }
+  std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
+  return out;
 }
 
 /// Positive as long as the line carries the gap that has opened in it.
@@ -213,9 +220,12 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
     const Piece& piece = profile.pieces[i];
     const bool at_mid = topology.half && i == 0;
     if (piece.stretch == Stretch::line) {
-      const ContactEvent pressure = least_pressure(piece, i, at_mid && !topology.mid_touch);
-      events.push_back(pressure);
-      events.push_back(suction(piece, pressure));
+      const std::vector<ContactEvent> pressures = dips(piece, i, at_mid && !topology.mid_touch);
+      events.push_back(pressures.front());
+      ContactEvent widest = suction(piece, pressures.front());
+      for (const ContactEvent& dip : pressures)
+        if (const ContactEvent other = suction(piece, dip); other.value < widest.value) widest = other;
+      events.push_back(widest);
     }
     if (piece.stretch != Stretch::tail)
       events.push_back(length_event(profile, i, at_mid && !topology.mid_touch));

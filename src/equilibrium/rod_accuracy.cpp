@@ -124,7 +124,9 @@ std::vector<chain::ArcMesh> RodProblem::new_meshes(const Vector& x, const Loads&
 }
 
 double RodProblem::excess(const Vector& x, const Vector& p) {
-  const double goal = scene_.model.tolerance;
+  // In long helices estimates below this are rounding's: no mesh brings less, and ever finer ones bring more.
+  constexpr double attainable = 2e-12;
+  const double goal = std::max(scene_.model.tolerance, attainable);
   const double error = error_estimate(x, p);
   const double nodal = nodal_error_ > 3.0 * nodal_floor_ ? nodal_error_ : 0.0;
   return std::max(error / goal, nodal / nodal_goal());
@@ -133,7 +135,7 @@ double RodProblem::excess(const Vector& x, const Vector& p) {
 double RodProblem::nodal_goal() const {
   // A strut is as long as its unit, so its strains, and with them the moments, are some ten times its rotations.
   const double share = rod_.strut ? 0.03 : 0.3;
-  return share * std::min(scene_.model.tolerance, certificate_level);
+  return share * certificate_level;  // the tolerance is the target's: frames beside short arcs round to no better
 }
 
 Vector RodProblem::refine(Vector x, const Vector& p, int rounds) {
@@ -172,8 +174,10 @@ std::optional<Vector> RodProblem::moved_to(std::vector<chain::ArcMesh> meshes, c
     // What rounding is forgiven no coarser mesh may add.
     if (within && too_large <= 1.0 && nodal_error_ <= std::max(nodal_goal(), old_nodal)) return fresh;
     // A thirtieth was asked for: a mesh that brings much less has met rounding, which changes by chance.
-    constexpr double by_mesh = 0.05;
-    if (!within && (last_error_ > scene_.model.tolerance || nodal_error_ < by_mesh * old_nodal)) return fresh;
+    constexpr double by_mesh = 0.05, towards = 0.3;
+    const double old_error = std::get<0>(old_errors);
+    const bool closer = old_error > scene_.model.tolerance && last_error_ < towards * old_error;
+    if (!within && (closer || nodal_error_ < by_mesh * old_nodal)) return fresh;
     if (!within) nodal_floor_ = std::max(nodal_error_, old_nodal);  // rounding: no mesh helps
   }
   meshes_ = old_meshes;  // keep what works
