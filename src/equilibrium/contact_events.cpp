@@ -101,11 +101,16 @@ std::vector<ContactEvent> dips(const Piece& line, int link, bool begins_at_mid) 
   const Eigen::Index last = line.s.size() - 1;
   const double begin = line.s(0), end = line.s(last);
   // Pressed evenly it lifts all at once, and a line that shrinks to nothing is not cut.
-  const bool even = line.p.maxCoeff() - line.p.minCoeff() < 1e-6;
+  Eigen::Index lowest = 0;
+  const double least_sample = line.p.minCoeff(&lowest), range = line.p.maxCoeff() - least_sample;
+  const bool even = range < 1e-6;
   std::vector<ContactEvent> out;
   for (Eigen::Index k = 0; k <= last; ++k) {
-    // The deepest minimum need not be next to the least sample.
-    if ((k > 0 && line.p(k - 1) < line.p(k)) || (k < last && line.p(k + 1) < line.p(k))) continue;
+    // The deepest minimum need not be next to the least sample, but next to one that is hardly less deep.
+    constexpr double hardly = 0.05;
+    const bool dip = (k == 0 || line.p(k - 1) > line.p(k)) && (k == last || line.p(k + 1) > line.p(k)) &&
+                     line.p(k) - least_sample < hardly * range;
+    if (k != lowest && (even || !dip)) continue;
     const Least least = least_near(line, line.p, k);
     ContactEvent event{Kind::pressure, link, least.value, least.s, least.s, least.s};
     event.passes = !even && end - begin > 10.0 * least_length;

@@ -73,6 +73,23 @@ BOOST_AUTO_TEST_CASE(long_coils_are_complete) {
   }
 }
 
+// Whatever mesh the tolerance asks for: the same branches and events, down to what rounding allows.
+BOOST_AUTO_TEST_CASE(refining_the_tolerance_loses_no_branch) {
+  std::vector<double> first;
+  for (const char* tolerance : {"1e-8", "1e-11", "1e-13"}) {
+    const TemporaryFolder folder;
+    draw(folder, "capstan-4pi", {"rod.length=40", "model.tolerance=" + std::string(tolerance)});
+    std::vector<double> tensions;
+    for (const auto& point : nlohmann::json::parse(slurp(folder.path() / "run" / "special_points.json")))
+      tensions.push_back(point["T"]);
+    if (first.empty()) first = tensions;
+    BOOST_TEST_REQUIRE(tensions.size() == first.size(), "tolerance " << tolerance);
+    for (std::size_t k = 0; k < first.size(); ++k)
+      BOOST_TEST(std::abs(tensions[k] - first[k]) <
+                 1e-5);  // events beside short gaps: precisions of 1e-6 and less
+  }
+}
+
 // The arm of index 2 that leaves the clamped 4 pi coil second goes through a dozen contact topologies.
 BOOST_AUTO_TEST_CASE(arms_of_the_clamped_coil_reach_the_least_tension) {
   const TemporaryFolder folder;
