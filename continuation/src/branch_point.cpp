@@ -114,8 +114,7 @@ std::optional<BranchPoint> polish_simple(Problem& problem, const Options& option
       point.x = at.it.x;
       point.p = at.it.p;
       point.u = at.it.u;
-      // Of steps that are all rounding one may be small by chance: the step that would follow, and what rounding of the
-      // equations, at the level that Newton's method reaches, does to their zero.
+      // Of steps that are all rounding one may be small by chance: the one that would follow is looked at, too.
       const double next = std::abs((hessian.inverse() * *left)[0]);
       point.precision = scale * std::max({std::abs(dz[0]), next,
                                           4.0 * std::numeric_limits<double>::epsilon() * std::abs(z[0])});

@@ -76,10 +76,9 @@ Together together(Segment& segment, const Sample& lo, const Sample& hi,
   return {};
 }
 
-/// @param around  the narrowest piece around this interval that holds a point, which could not be polished
+/// @param around  the narrowest piece around this interval that holds a point, which could not be polished; null: there is none
 void search(Segment& segment, const Sample& lo, const Sample& hi, int depth,
-            const std::vector<Located>& restricted, std::optional<Piece> around,
-            std::vector<Located>& found) {
+            const std::vector<Located>& restricted, const Piece* around, std::vector<Located>& found) {
   if (lo.breaking_index < 0 || hi.breaking_index < 0 || lo.breaking_index == hi.breaking_index) return;
   if (const Together one = together(segment, lo, hi, restricted); one.point) {
     // Modes of both kinds that come in at once are turned into each other by a symmetry of the problem, as buckling in
@@ -93,14 +92,14 @@ void search(Segment& segment, const Sample& lo, const Sample& hi, int depth,
   constexpr int first = 4, between = 4;
   const bool alone = lo.index == hi.index && lo.tangent.p * hi.tangent.p > 0.0;
   std::string why;
+  std::optional<Piece> piece;
   if (depth >= first && (depth - first) % between == 0 && alone) {
-    if (std::optional<Piece> piece = in_the_large(segment, lo, hi, why); piece && !piece->found.empty()) {
-      around = std::move(piece);
-      if (std::any_of(around->found.begin(), around->found.end(), is_polished)) {
-        std::erase_if(around->found, std::not_fn(is_polished));
-        return add(segment, lo, hi, *around, found);
-      }
+    piece = in_the_large(segment, lo, hi, why);
+    if (piece && std::any_of(piece->found.begin(), piece->found.end(), is_polished)) {
+      std::erase_if(piece->found, std::not_fn(is_polished));
+      return add(segment, lo, hi, *piece, found);
     }
+    if (piece && !piece->found.empty()) around = &*piece;
   }
   const double smallest =
       segment.options().location_tolerance *
@@ -135,7 +134,7 @@ void search(Segment& segment, const Sample& lo, const Sample& hi, int depth,
 std::vector<Located> locate_symmetry_breaking(Segment& segment, const Sample& lo, const Sample& hi,
                                               const std::vector<Located>& restricted) {
   std::vector<Located> found;
-  search(segment, lo, hi, 0, restricted, std::nullopt, found);
+  search(segment, lo, hi, 0, restricted, nullptr, found);
   return found;
 }
 

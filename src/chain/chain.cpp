@@ -180,6 +180,16 @@ contact::SmallVector Chain::rise(const VectorXd& x, const Placed& placed, int li
   return joint.surface()->rise(joint.on_surface(coordinates(x, link)), step).head(size);
 }
 
+double Chain::touch_force(const VectorXd& x, const Loads& loads, int joint) const {
+  const VectorXd after = force(x, loads, joint);
+  VectorXd before = after;
+  if (joint > 0)
+    before = force(x, loads, joint - 1);
+  else
+    before(1) = -before(1);
+  return (before - after).dot(joints_[joint]->chart(coordinates(x, joint)).normal.head(after.size()));
+}
+
 VectorXd Chain::force(const VectorXd& x, const Loads& loads, int link) const {
   const Link& l = links_[link];
   if (l.pull == 0) return x.segment(force_at_[link], l.arc->forces());

@@ -75,12 +75,7 @@ MatrixXd Chain::variation_matrix(Purpose purpose, const Numbering& numbering, co
   constexpr double nothing = 1e-7;  // [EI/ρ²], [EI/ρ³]
   for (int j = 0; j < joint_count(); ++j) {
     const Eigen::Index row = numbering.location[j];
-    if (row < 0) continue;
-    const VectorXd normal = joints_[j]->chart(coordinates(x, j)).normal;
-    VectorXd jump = -force(x, loads, j);
-    if (j > 0) jump += force(x, loads, j - 1);
-    const double carried = jump.dot(normal.head(jump.size()));
-    if (carried < nothing) dense(row, row) -= nothing;
+    if (row >= 0 && touch_force(x, loads, j) < nothing) dense(row, row) -= nothing;
   }
   return dense;
 }

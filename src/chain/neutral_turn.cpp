@@ -10,9 +10,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// What a neutral motion leaves of a pivot, as a part of the others: the error that Newton's method has left.
-constexpr double nearly_zero = 1e-6;
-
 /// The vector of a null space (orthonormal columns) with the least part in the rows of location conditions.
 /// @param locations  those rows, −1: none
 struct Least {

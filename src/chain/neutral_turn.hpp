@@ -6,6 +6,9 @@
 /// A turn of the whole rod that costs nothing (Chain::expect_neutral_turn), in the dense block of a chain.
 namespace windlass::chain {
 
+/// What a neutral motion leaves of a pivot, as a part of the one in the middle: the error that Newton's method has left.
+inline constexpr double nearly_zero = 1e-6;
+
 /// Size of the entries in the middle: an arc that is singular by itself leaves one of 1e10.
 double median(Eigen::VectorXd values);
 

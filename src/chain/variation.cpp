@@ -13,9 +13,7 @@ using contact::Parity;
 
 namespace {
 
-/// Of the pivot in the middle: the error that Newton's method has left.
-constexpr double nearly_zero = 1e-6;
-/// Of the same: K⁻¹ of less would be all that is left of the other eigenvalues.
+/// Of the pivot in the middle: K⁻¹ of less would be all that is left of the other eigenvalues.
 constexpr double rounding = 1e-12;
 
 }  // namespace

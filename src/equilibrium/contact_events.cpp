@@ -140,8 +140,8 @@ ContactEvent suction(const Piece& line, const ContactEvent& pressure) {
     // Close to an edge it is carried until it reaches the edge, so that no line, or next to none, is left beyond it.
     const double middle = 0.5 * (event.from + event.to);
     const double edge = mirrored ? end - middle : std::min(end - middle, middle - line.s(0));
-    if (edge < 1.5 * 0.5 * std::sqrt(5.0) * carried)
-      carried = std::max(2.0 * edge / std::sqrt(5.0), carried_beside_touch);
+    if (edge < gap_reaches_edge * 0.5 * gap_inside * carried)
+      carried = std::max(2.0 * edge / gap_inside, carried_beside_touch);
   }
   event.value = !pressure.passes ? 1.0 : 1.0 - (event.to - event.from) / carried;
   return event;
@@ -174,10 +174,10 @@ Sides sides(const Profile& profile, int link) {
 /// Length below which the line beside a gap carries it; some shorter than it was when it became an arc.
 std::optional<double> carried_length(const Sides& at, bool begins_at_mid) {
   constexpr double shorter = 0.75;
-  const double inside = shorter * std::sqrt(5.0) * carried_inside;
+  const double inside = shorter * gap_inside * carried_inside;
   if (begins_at_mid && at.edges == 1 && at.touches == 0) return 0.5 * inside;
   if (at.edges == 2) return inside;
-  if (at.edges == 1 && at.touches == 1) return shorter * (5.0 / 3.0) * carried_beside_touch;
+  if (at.edges == 1 && at.touches == 1) return shorter * gap_beside_touch * carried_beside_touch;
   return std::nullopt;
 }
 
@@ -227,10 +227,10 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
     if (piece.stretch == Stretch::line) {
       const std::vector<ContactEvent> pressures = dips(piece, i, at_mid && !topology.mid_touch);
       events.push_back(pressures.front());
-      ContactEvent widest = suction(piece, pressures.front());
-      for (const ContactEvent& dip : pressures)
-        if (const ContactEvent other = suction(piece, dip); other.value < widest.value) widest = other;
-      events.push_back(widest);
+      events.push_back(suction(piece, pressures.front()));
+      for (std::size_t k = 1; k < pressures.size(); ++k)
+        if (const ContactEvent other = suction(piece, pressures[k]); other.value < events.back().value)
+          events.back() = other;
     }
     if (piece.stretch != Stretch::tail)
       events.push_back(length_event(profile, i, at_mid && !topology.mid_touch));

@@ -1,7 +1,6 @@
 #include "windlass/equilibrium/opening.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "windlass/equilibrium/contact_events.hpp"
@@ -146,20 +145,15 @@ bool settle_shape(RodProblem& problem, Vector& x, Vector& p, const std::vector<i
 }
 
 std::optional<LineBegins> where_line_begins(RodProblem& problem, Vector x, Vector p, int link) {
-  // p(0) is smooth in the length: Richardson's extrapolation from lengths that double.
   constexpr int levels = 4;
   const double shortest = 4.0 * least_length * problem.rod().unit_length;
-  std::array<double, levels> values;
-  double before = 0.0;
+  std::array<double, levels> values;  // p(0) is smooth in the length
   for (int k = levels; k-- > 0;) {
     if (!solve_at_length(problem, x, p, link, shortest * (1 << k))) return std::nullopt;
     values[k] = p(0);
   }
-  for (int order = 1; order < levels; ++order) {
-    before = values[0];
-    for (int k = 0; k + order < levels; ++k) values[k] += (values[k] - values[k + 1]) / ((1 << order) - 1);
-  }
-  return LineBegins{values[0], std::abs(values[0] - before)};
+  const Limit<double> limit = limit_at_zero(values);
+  return LineBegins{limit.value, std::abs(limit.value - limit.before)};
 }
 
 bool solve_at_length(RodProblem& problem, Vector& x, Vector& p, int link, double length) {

@@ -135,8 +135,8 @@ double RodProblem::excess(const Vector& x, const Vector& p) {
 double RodProblem::nodal_goal() const {
   // A strut is as long as its unit, so its strains, and with them the moments, are some ten times its rotations.
   const double share = rod_.strut ? 0.03 : 0.3;
-  return share *
-         certificate_level;  // the tolerance is the target's: frames beside short arcs round to no better
+  // The tolerance is the target's: frames beside short arcs round to no better than certificates ask.
+  return share * certificate_level;
 }
 
 Vector RodProblem::refine(Vector x, const Vector& p, int rounds) {

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -128,8 +127,7 @@ int straight_line(const RodProblem& lines, int link) {
   return lines.rod().obstacles[topology.obstacle(link == 0 ? 1 : link)].curvature() == 0.0 ? link : -1;
 }
 
-/// State of a touch at p(0), where branches cross and its equations are singular: extrapolated from the side that it is on,
-/// by Richardson, from distances that double. @returns whether all of them have a solution
+/// State of a touch at p(0), where branches cross and its equations are singular: extrapolated from the side that it is on. @returns whether all of them have a solution
 bool extrapolate(Entry& touch, double p) {
   constexpr int levels = 4;
   constexpr double nearest = 1e-4;  // of p: rounding is amplified by its inverse, the error is (8e-4)⁴
@@ -140,9 +138,7 @@ bool extrapolate(Entry& touch, double p) {
     if (touch.problem->polish(touch.x, touch.p, 18) < 0) return false;
     x[k] = touch.x;
   }
-  for (int order = 1; order < levels; ++order)
-    for (int k = 0; k + order < levels; ++k) x[k] += (x[k] - x[k + 1]) / ((1 << order) - 1);
-  touch.x = x[0];
+  touch.x = limit_at_zero(x).value;
   touch.p(0) = p;
   return true;
 }

@@ -48,22 +48,22 @@ std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& st
     return part;
   };
   if (at_mid) {
-    for (const double size : gap_lengths(width, std::sqrt(5.0), 0.3, 1.8 * length))
+    for (const double size : gap_lengths(width, gap_inside, 0.3, 1.8 * length))
       out.push_back(cut(strip, i, begin, begin + 0.5 * size).successor());
   } else if (at_start ||
              at_end) {  // the edge's point force stays: a touch, with a gap between it and the line
-    for (const double size : gap_lengths(width, 5.0 / 3.0, 0.05, 0.9 * length))
+    for (const double size : gap_lengths(width, gap_beside_touch, 0.05, 0.9 * length))
       out.push_back(
           (at_end ? cut(strip, i, end - size, end) : cut(strip, i, begin, begin + size)).successor());
   } else {
     const double middle = 0.5 * (low + high), room = 1.8 * std::min(middle - begin, end - middle);
     // Close to an edge no line is left beyond the gap, or next to nothing, only the edge's point force.
-    const double half = 0.5 * std::sqrt(5.0) * width, close = 1.5 * half;
+    const double half = 0.5 * gap_inside * width, close = gap_reaches_edge * half;
     for (const double part : {1.0, 1.5}) {
       if (end - middle < close) out.push_back(cut(strip, i, middle - part * half, end).successor());
       if (middle - begin < close) out.push_back(cut(strip, i, begin, middle + part * half).successor());
     }
-    for (const double size : gap_lengths(width, std::sqrt(5.0), 0.3, room))
+    for (const double size : gap_lengths(width, gap_inside, 0.3, room))
       out.push_back(cut(strip, i, middle - 0.5 * size, middle + 0.5 * size).successor());
   }
   out.push_back(open.successor());

@@ -101,6 +101,9 @@ class Chain {
   double arclength(const VectorXd& x, const Loads& loads, int joint) const;
   void set_arclength(VectorXd& x, int joint, double s) const;
   VectorXd force(const VectorXd& x, const Loads& loads, int link) const;
+  /// Outward point force on the rod at a touch, from the forces on its two sides; on the half-turn's axis the other side
+  /// is the image of this one.
+  double touch_force(const VectorXd& x, const Loads& loads, int joint) const;
   double* force(VectorXd& x, int link) const { return x.data() + force_at_[link]; }
   double* interior(VectorXd& x, int link) const { return x.data() + interior_at_[link]; }
   const double* interior(const VectorXd& x, int link) const { return x.data() + interior_at_[link]; }

@@ -41,7 +41,11 @@ inline constexpr double least_between_touches = 5e-3;
 /// line begins, with force f there.
 inline constexpr double least_curvature = 1e-3;
 
-/// Widths of suction a line carries for a gap, √5 and 5/3 times as long [ρ]. The height of the gap is then below 1e-11; energy
+/// Length of a gap over the width of the suction that stands for it, inside a line (√5) and beside a touch; and the distance
+/// from an edge, in half-lengths, at which a gap reaches it: next to no line would be left between.
+inline constexpr double gap_inside = 2.23606797749978969641, gap_beside_touch = 5.0 / 3.0,
+                        gap_reaches_edge = 1.5;
+/// Widths of suction a line carries for a gap [ρ]. The height of the gap is then below 1e-11; energy
 /// and R_tot, which see the square of what the line does wrong, change by less than 1e-9, the moment at a touch by 1e-7.
 inline constexpr double carried_inside = 0.036, carried_beside_touch = 0.018;
 

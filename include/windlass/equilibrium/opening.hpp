@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -22,6 +24,24 @@ bool tried(Step&& step) {
   } catch (const chain::SingularMatrix&) {
   }
   return false;
+}
+
+/// A smooth function at zero by Richardson's extrapolation, and what one order less gives.
+template <class Value>
+struct Limit {
+  Value value, before;
+};
+
+/// @param values  at distances that double, nearest first
+template <class Value, std::size_t levels>
+Limit<Value> limit_at_zero(std::array<Value, levels> values) {
+  Value before = values[0];
+  for (std::size_t order = 1; order < levels; ++order) {
+    before = values[0];
+    for (std::size_t k = 0; k + order < levels; ++k)
+      values[k] += (values[k] - values[k + 1]) / ((1 << order) - 1);
+  }
+  return {values[0], before};
 }
 
 /// Lets the shape adjust while the edges of the opened links stay where they are, their location conditions waived: a few

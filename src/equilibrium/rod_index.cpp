@@ -1,0 +1,64 @@
+// Negative directions of a rod's second variation, as a branch follows them.
+#include <algorithm>
+
+#include "windlass/chain/variation.hpp"
+#include "windlass/equilibrium/rod_problem.hpp"
+
+namespace windlass::equilibrium {
+
+using contact::Loads;
+
+int RodProblem::index(const Vector& x, const Vector& p) {
+  const Loads at = loads(p);
+  // Where a contact carries nothing, or an arc has no length left, the second variation is not that of a rod held by
+  // these contacts: the count of the last sound point stands until the event is located.
+  if (index_ >= 0 && degenerate(x, at)) return index_;
+  return index_ = count(x, p, contact::Parity::even, index_);
+}
+
+int RodProblem::breaking_index(const Vector& x, const Vector& p) {
+  if (!topology_.half) return -1;
+  const Loads at = loads(p);
+  if (breaking_index_ >= 0 && degenerate(x, at)) return breaking_index_;
+  return breaking_index_ = count(x, p, contact::Parity::odd, breaking_index_);
+}
+
+bool RodProblem::degenerate(const Vector& x, const Loads& at) const {
+  constexpr double nothing = 1e-7;
+  if (topology_.mid_touch && chain_->touch_force(x, at, 0) < nothing) return true;
+  for (int j = 1; j < chain_->joint_count(); ++j) {
+    if (chain_->arclength(x, at, j) - chain_->arclength(x, at, j - 1) < nothing) return true;
+    const bool touch = chain_->joint(j).kind() == contact::JointKind::touch;
+    if (touch && chain_->touch_force(x, at, j) < nothing) return true;
+  }
+  return false;
+}
+
+int RodProblem::count(const Vector& x, const Vector& p, contact::Parity parity, int last) {
+  if (counts_.x.size() == 0 || counts_.x != x || counts_.p != p) counts_ = {x, p};
+  const int at = parity == contact::Parity::even ? 0 : 1;
+  int &negative = counts_.negative[at], &rounded = counts_.rounded[at];
+  if (negative < 0) {
+    const Loads loads = this->loads(p);
+    const chain::Chain::Inertia inertia = chain_->inertia(x, loads, parity);
+    negative = inertia.negative;
+    if (inertia.near_rounding) {
+      const chain::Linearisation linearised(*chain_, rod_, x, loads);
+      const chain::Variation::Doubt doubt = chain::Variation(linearised, parity).doubt();
+      negative = doubt.negative, rounded = doubt.rounded;
+    }
+  }
+  return std::clamp(last, negative, negative + rounded);
+}
+
+int RodProblem::total_index(const Vector& x, const Vector& p) {
+  // At an event where a contact carries nothing the last sound point's count stands here, too.
+  const bool known = index_ >= 0 && (!topology_.half || breaking_index_ >= 0);
+  if (known && degenerate(x, loads(p))) return index_ + (topology_.half ? breaking_index_ : 0);
+  const bool counted = counts_.x.size() > 0 && counts_.x == x && counts_.p == p && counts_.negative[0] >= 0 &&
+                       counts_.negative[1] >= 0;
+  if (!counted) factored(x, p);
+  return count(x, p, contact::Parity::even) + count(x, p, contact::Parity::odd);
+}
+
+}  // namespace windlass::equilibrium
