@@ -52,6 +52,49 @@ void Walker::adapt() {
   }
 }
 
+// The mesh suits the point before; at the event itself the error may be another. On one that suits it the function vanishes
+// a little beside: there is the event.
+void Walker::settle_event(Point& event, const std::string& name) {
+  if (!options_.adapt) return;
+  const WalkState before = state_;
+  state_.problem = state_.problem->clone();
+  state_.mesh_changed = false;
+  adapt();
+  const auto value = [&](const std::vector<EventFunction>& events) -> std::optional<double> {
+    for (const EventFunction& function : events)
+      if (function.name == name) return function.value;
+    return std::nullopt;
+  };
+  if (state_.end || !state_.mesh_changed) {
+    state_ = before;
+    return;
+  }
+  double trial = 1e-6 * step_length_.usual();
+  for (int k = 0; k < 5; ++k) {
+    const std::optional<double> here = value(state_.events);
+    if (!here || std::abs(*here) <= options_.event_zero) break;
+    Segment segment(state_.problem, options_, state_.x, state_.p, state_.tangent);
+    Sample* beside = segment.at(trial, false);
+    if (!beside) break;
+    segment.add_events(*beside);
+    const std::optional<double> there = value(beside->events);
+    if (!there || *there == *here) break;
+    const double s = -*here * trial / (*there - *here);
+    if (std::abs(s) > 1e-3 * step_length_.usual()) break;  // no zero of a smooth function
+    Sample* zero = segment.at(s, true);
+    if (!zero) break;
+    segment.add_events(*zero);
+    const double last_ds = state_.last_ds;
+    settle(segment, *zero);
+    state_.last_ds = last_ds;
+    trial = std::max(std::abs(s), 1e-8 * step_length_.usual());
+  }
+  event.problem = state_.problem->clone();
+  event.x = state_.x;
+  event.p = state_.p;
+  event.tangent = state_.tangent;
+}
+
 // The walker's own state is what lies beyond the event.
 void Walker::say_what_follows(Point& event) const {
   event.index_after = state_.index;
@@ -100,7 +143,10 @@ void Walker::pass(Point event, std::size_t which, const std::string& name, int d
     return note(std::move(event), *function, *transition);
   event.before = transition->before;
   event.after = transition->after;
-  if (!transition->problem) return finish(End::Kind::event, "event " + name + " ends the branch");
+  if (!transition->problem) {
+    event.precision = std::max(event.precision, transition->precision);
+    return finish(End::Kind::event, "event " + name + " ends the branch");
+  }
   if (!enter(*transition, direction, name, failure))
     return finish(End::Kind::lost, "event " + name + ": " + failure);
   if (transition->precision >= 0.0) {

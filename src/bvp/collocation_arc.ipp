@@ -402,28 +402,35 @@ ArcSamples CollocationArc<Density>::sample(const ArcPoint& at) const {
   Force base = Force::Zero();
   Nodes q, g;
   Ambient value, slope;
+  Eigen::Matrix<double, 2 * A, 1> gz;
+  Force d;
   for (int e = 0; e < elements(); ++e) {
     const double h = mesh_[e + 1] - mesh_[e];
     gather(at, e, q);
     Force g_n = Force::Zero();
     double g_length = 0.0;
     element_gradient(q, at, e, g, g_n, g_length);
-    Eigen::MatrixXd directions(P, m);
+    Eigen::MatrixXd directions(P, m), loads(A, m);
     for (int j = 0; j < m; ++j) {
-      evaluate(table_, q, j, 1.0, value, slope);
-      directions.col(j) = density_.direction(value);
+      evaluate(table_, q, j, 1.0 / (h * at.length), value, slope);
+      density_.first(value, slope, n, gz, d);
+      directions.col(j) = d;
+      loads.col(j) = gz.template head<A>();
     }
-    const Eigen::MatrixXd moved = h * at.length * directions * table_.integral.transpose();
+    const Eigen::MatrixXd integral = h * at.length * table_.integral.transpose();
+    const Eigen::MatrixXd moved = directions * integral, gained = loads * integral;
     for (int i = 0; i <= m; ++i) {
       const int k = e * m + i;
       out.sigma(k) = mesh_[e] + h * table_.lobatto(i);
       out.q.col(k) = q.col(i);
       out.displacement.col(k) = base + moved.col(i);
       slope = q * table_.end_slope.row(i).transpose() / (h * at.length);
-      Eigen::Matrix<double, 2 * A, 1> gz;
-      Force d;
       density_.first(q.col(i), slope, n, gz, d);
-      out.momentum.col(k) = density_.basis(q.col(i)).transpose() * gz.template tail<A>();
+      // The momentum follows from what the element gains of it, more exactly than from the polynomial's slope.
+      if constexpr (A == D)
+        out.momentum.col(k) = gained.col(i) - g.col(0);
+      else
+        out.momentum.col(k) = density_.basis(q.col(i)).transpose() * gz.template tail<A>();
       out.slope.col(k) = density_.basis(q.col(i)).transpose() * slope;
     }
     out.momentum.col(e * m) = -density_.basis(q.col(0)).transpose() * g.col(0);

@@ -74,15 +74,18 @@ std::optional<Started> reach(const Started& from, const scene::Scene& scene, dou
   if (from.p(0) != goal) {
     continuation::Walker walker(from.problem, from.x, from.p, options);
     double reached = from.p(0);
-    while (const auto point = walker.step()) iterations += point->newton_iterations, reached = point->p(0);
-    if (walker.end().kind == continuation::End::Kind::event)
+    std::string beyond;
+    while (const auto point = walker.step())
+      iterations += point->newton_iterations, reached = point->p(0), beyond = point->after;
+    if (walker.end().kind == continuation::End::Kind::event && beyond == "no contact")
       throw NoContact(
           fmt::format("no equilibrium in contact exists at {} = {:g}: followed from {:g}, the rod lifts off "
                       "the cylinder at {:.6g}",
                       from.problem->keys().front(), given(goal), given(from.p(0)), given(reached)));
     if (walker.end().kind != continuation::End::Kind::target) {
-      failure = fmt::format("followed from {} = {:g}, the branch ends: {}", from.problem->keys().front(),
-                            given(from.p(0)), walker.end().reason);
+      failure =
+          fmt::format("followed from {} = {:g}, the branch ends at {:g}: {}", from.problem->keys().front(),
+                      given(from.p(0)), given(reached), beyond.empty() ? walker.end().reason : beyond);
       return std::nullopt;
     }
     last = walker.problem();

@@ -24,23 +24,29 @@ struct Least {
   double value, s;
 };
 
-/// Least value of a sampled quantity between the neighbours of sample k, on the polynomials of the elements there: an
-/// event located by samples would move with the mesh.
-Least least_near(const Piece& piece, const Eigen::VectorXd& values, Eigen::Index k) {
+/// Least value of a sampled quantity between lo and hi, on the polynomials of the elements to the two sides of s, where it is
+/// `value`: an event located by samples would move with the mesh.
+Least least_near(const Piece& piece, const Eigen::VectorXd& values, double s, double value, double lo,
+                 double hi) {
   constexpr int bits = 26;  // half of a double: a minimum is flat
-  Least least{values(k), piece.s(k)};
-  for (const Eigen::Index from : {k - 1, k}) {
-    if (from < 0 || from + 1 >= values.size()) continue;
-    const Eigen::Index first = from / piece.stride * piece.stride;
+  Least least{value, s};
+  const Eigen::Index last = piece.s.size() - 1;
+  for (const int way : {-1, 1}) {
+    Eigen::Index first = 0;  // of the element on that side
+    while (first + piece.stride < last &&
+           (way > 0 ? s >= piece.s(first + piece.stride) : s > piece.s(first + piece.stride)))
+      first += piece.stride;
     const Eigen::VectorXd nodes = piece.s.segment(first, piece.stride + 1);
-    const double begin = nodes(0), length = nodes(piece.stride) - begin;
+    const double begin = nodes(0), length = nodes(piece.stride) - begin, x = (s - begin) / length;
+    const double from = way < 0 ? std::max(0.0, (lo - begin) / length) : x;
+    const double to = way < 0 ? x : std::min(1.0, (hi - begin) / length);
+    if (!(to > from)) continue;
     const Eigen::VectorXd scaled = (nodes.array() - begin) / length;
-    const auto polynomial = [&](double x) {
-      return bvp::lagrange_basis(scaled, x).dot(values.segment(first, piece.stride + 1));
+    const auto polynomial = [&](double at) {
+      return bvp::lagrange_basis(scaled, at).dot(values.segment(first, piece.stride + 1));
     };
-    const auto [x, value] = boost::math::tools::brent_find_minima(polynomial, scaled(from - first),
-                                                                  scaled(from + 1 - first), bits);
-    if (value < least.value) least = {value, begin + length * x};
+    const auto [at, found] = boost::math::tools::brent_find_minima(polynomial, from, to, bits);
+    if (found < least.value) least = {found, begin + length * at};
   }
   return least;
 }
@@ -63,7 +69,7 @@ ContactEvent graze(const Profile& profile, int obstacle, int link, bool starts_a
   if (starts_at_mid && g(0) < g(1)) event = at(g(0), piece.s(0));
   for (Eigen::Index k = 1; k + 1 < count; ++k) {
     if (g(k) > g(k - 1) - noise || g(k) > g(k + 1)) continue;
-    const Least least = least_near(piece, g, k);
+    const Least least = least_near(piece, g, piece.s(k), g(k), piece.s(k - 1), piece.s(k + 1));
     if (least.value < event.value) event = at(least.value, least.s);
   }
   return event;
@@ -71,53 +77,79 @@ ContactEvent graze(const Profile& profile, int obstacle, int link, bool starts_a
 
 double length_of(const Piece& piece) { return piece.s(piece.s.size() - 1) - piece.s(0); }
 
-/// First and second derivative of the pressure at s.
-std::pair<double, double> slopes(const Piece& line, double s) {
-  Eigen::Index first = 0;
-  const Eigen::Index last = line.s.size() - 1;
-  while (first + line.stride < last && s > line.s(first + line.stride)) first += line.stride;
-  const Eigen::VectorXd nodes = line.s.segment(first, line.stride + 1),
-                        p = line.p.segment(first, line.stride + 1);
-  const double length = nodes(line.stride) - nodes(0);
-  const Eigen::VectorXd scaled = (nodes.array() - nodes(0)) / length;
-  Eigen::VectorXd slope(scaled.size());
-  for (Eigen::Index k = 0; k < scaled.size(); ++k) slope(k) = bvp::lagrange_slopes(scaled, scaled(k)).dot(p);
-  const double x = (s - nodes(0)) / length;
-  return {bvp::lagrange_slopes(scaled, x).dot(p) / length,
-          bvp::lagrange_slopes(scaled, x).dot(slope) / (length * length)};
+/// Samples of an element.
+constexpr int element_parts = 24;
+
+/// The pressure of a line, dense enough that no dip and no rise of its polynomials is missed.
+struct DensePressure {
+  Eigen::VectorXd s, p;
+};
+
+DensePressure dense_pressure(const Piece& line) {
+  constexpr int parts = element_parts;
+  const Eigen::Index stride = line.stride, elements = (line.s.size() - 1) / stride;
+  DensePressure out{Eigen::VectorXd(elements * parts + 1), Eigen::VectorXd(elements * parts + 1)};
+  const double first_length = line.s(stride) - line.s(0);
+  const Eigen::VectorXd scaled = (line.s.head(stride + 1).array() - line.s(0)) / first_length;  // of each
+  Eigen::MatrixXd basis(parts, stride + 1);
+  for (int k = 0; k < parts; ++k)
+    basis.row(k) = bvp::lagrange_basis(scaled, static_cast<double>(k) / parts).transpose();
+  for (Eigen::Index e = 0; e < elements; ++e) {
+    const double begin = line.s(e * stride), length = line.s((e + 1) * stride) - begin;
+    out.s.segment(e * parts, parts) =
+        Eigen::VectorXd::LinSpaced(parts, begin, begin + length * (parts - 1) / parts);
+    out.p.segment(e * parts, parts) = basis * line.p.segment(e * stride, stride + 1);
+  }
+  out.s(elements * parts) = line.s(elements * stride);
+  out.p(elements * parts) = line.p(elements * stride);
+  return out;
 }
 
-/// How far p + b x + a x²/2 stays negative from x = 0 on, at most `most`.
-double reach(double p, double b, double a, double most) {
-  const double root = b * b - 2.0 * a * p;
-  if (root < 0.0 || b + std::sqrt(root) <= 0.0) return most;
-  return std::min(most, -2.0 * p / (b + std::sqrt(root)));
+/// Where the pressure, least at s, rises above `level` on the way to the line's end in the direction `way`; the end itself
+/// if nowhere.
+double rises_above(const DensePressure& line, double level, double s, int way) {
+  const Eigen::Index last = line.s.size() - 1;
+  Eigen::Index k = way > 0 ? 0 : last;  // first sample beyond s
+  while (k >= 0 && k <= last && (line.s(k) - s) * way <= 0.0) k += way;
+  for (; k >= 0 && k <= last; k += way) {
+    if (line.p(k) < level) continue;
+    const Eigen::Index before = k - way;
+    if (before < 0 || before > last || line.p(before) >= level) return line.s(k);
+    return line.s(before) +
+           (line.s(k) - line.s(before)) * (level - line.p(before)) / (line.p(k) - line.p(before));
+  }
+  return line.s(way > 0 ? last : 0);
 }
+
+/// Pressure between two places where a line pulls, over their pull, that counts as none.
+constexpr double next_to_none = 1e-6;
 
 /// Local minima of a line's pressure, the least first; each with where the line pulls about it: no length where it does not.
 /// A line that carries no pressure over its length is no less in contact for that; see rod::buckling_margin.
-std::vector<ContactEvent> dips(const Piece& line, int link, bool begins_at_mid) {
+std::vector<ContactEvent> dips(const Piece& line, const DensePressure& dense, int link, bool begins_at_mid) {
   if (line.buckling) return {{Kind::pressure, link, far, line.s(0)}};
-  const Eigen::Index last = line.s.size() - 1;
-  const double begin = line.s(0), end = line.s(last);
+  const double begin = line.s(0), end = line.s(line.s.size() - 1);
   // Pressed evenly it lifts all at once, and a line that shrinks to nothing is not cut.
   Eigen::Index lowest = 0;
-  const double least_sample = line.p.minCoeff(&lowest), range = line.p.maxCoeff() - least_sample;
+  const Eigen::VectorXd& p = dense.p;
+  const double least_sample = p.minCoeff(&lowest), range = p.maxCoeff() - least_sample;
   const bool even = range < 1e-6;
   std::vector<ContactEvent> out;
-  for (Eigen::Index k = 0; k <= last; ++k) {
+  for (Eigen::Index k = 0; k < p.size(); ++k) {
     // The deepest minimum need not be next to the least sample, but next to one that is hardly less deep.
     constexpr double hardly = 0.05;
-    const bool dip = (k == 0 || line.p(k - 1) > line.p(k)) && (k == last || line.p(k + 1) > line.p(k)) &&
-                     line.p(k) - least_sample < hardly * range;
+    const bool dip = (k == 0 || p(k - 1) > p(k)) && (k + 1 == p.size() || p(k + 1) > p(k)) &&
+                     p(k) - least_sample < hardly * range;
     if (k != lowest && (even || !dip)) continue;
-    const Least least = least_near(line, line.p, k);
+    const double before = dense.s(std::max<Eigen::Index>(k - 1, 0)),
+                 after = dense.s(std::min(k + 1, p.size() - 1));
+    const Least least = least_near(line, line.p, dense.s(k), p(k), before, after);
     ContactEvent event{Kind::pressure, link, least.value, least.s, least.s, least.s};
     event.passes = !even && end - begin > 10.0 * least_length;
     if (least.value < 0.0) {
-      const auto [b, a] = slopes(line, least.s);
-      event.from = least.s - reach(least.value, -b, a, least.s - begin);
-      event.to = least.s + reach(least.value, b, a, end - least.s);
+      const double level = -next_to_none * least.value;
+      event.from = rises_above(dense, level, least.s, -1);
+      event.to = rises_above(dense, level, least.s, 1);
       if (begins_at_mid && event.from <= begin) event.from = begin - (event.to - begin);
     }
     out.push_back(event);
@@ -126,25 +158,66 @@ std::vector<ContactEvent> dips(const Piece& line, int link, bool begins_at_mid) 
   return out;
 }
 
-/// Positive as long as the line carries the gap that has opened in it.
-ContactEvent suction(const Piece& line, const ContactEvent& pressure) {
+/// Length of the gap that opens at a dip inside a line, over the length that the line carries for a pressure of this shape.
+double part_of_carried(const ContactEvent& dip) {
+  return std::pow(std::max(-dip.value, 0.0) * std::pow(dip.to - dip.from, 4) / carried_inside, 1.0 / 6.0);
+}
+
+/// Would gaps in the place of these dips meet, each as long as the line carries it? Next to no line would be left between.
+bool would_meet(const ContactEvent& a, const ContactEvent& b) {
+  const auto half = [](const ContactEvent& dip) {
+    return 0.5 * gap_inside * (dip.to - dip.from) / part_of_carried(dip);
+  };
+  return a.value < 0.0 && b.value < 0.0 && std::abs(a.s - b.s) < gap_reaches_edge * (half(a) + half(b));
+}
+
+/// Positive as long as the line carries the gap that has opened in it: one less the gap's length over that which is carried.
+/// Two that would meet are carried until the pressure between them is gone: then they are one.
+/// @param dips  of the whole line, past the mid-point of a half chain too
+ContactEvent suction(const DensePressure& line, const ContactEvent& pressure,
+                     const std::vector<ContactEvent>& dips) {
   ContactEvent event = pressure;
   event.kind = Kind::suction;
   event.passes = false;
   event.redrawn = true;
-  const double end = line.s(line.s.size() - 1);
-  const bool mirrored = event.from < line.s(0);  // about the mid-point of a half chain
-  const bool beside_touch = event.to >= end || (!mirrored && event.from <= line.s(0));
-  double carried = beside_touch ? carried_beside_touch : carried_inside;
-  if (!beside_touch) {
-    // Close to an edge it is carried until it reaches the edge, so that no line, or next to none, is left beyond it.
-    const double middle = 0.5 * (event.from + event.to);
-    const double edge = mirrored ? end - middle : std::min(end - middle, middle - line.s(0));
-    if (edge < gap_reaches_edge * 0.5 * gap_inside * carried)
-      carried = std::max(2.0 * edge / gap_inside, carried_beside_touch);
+  event.value = 1.0;
+  const double width = event.to - event.from, pull = -pressure.value;
+  if (!pressure.passes || !(pull > 0.0)) return event;
+  const double begin = line.s(0), end = line.s(line.s.size() - 1);
+  const bool mirrored = event.from < begin;  // about the mid-point of a half chain
+  if (event.to >= end || (!mirrored && event.from <= begin)) {
+    event.value = 1.0 - std::cbrt(pull * width * width / carried_beside_touch);
+    return event;
   }
-  event.value = !pressure.passes ? 1.0 : 1.0 - (event.to - event.from) / carried;
+  for (const ContactEvent& other : dips) {
+    const bool apart = other.s < event.from || other.s > event.to;
+    if (!apart || !would_meet(pressure, other)) continue;
+    double between = 0.0;
+    for (Eigen::Index k = 0; k < line.s.size(); ++k)
+      if ((line.s(k) - event.s) * (line.s(k) - other.s) < 0.0) between = std::max(between, line.p(k));
+    event.value = std::min(event.value, between / pull);
+  }
+  if (event.value < 1.0) return event;
+  const double part = part_of_carried(pressure);
+  // Close to an edge it is carried until it reaches the edge, so that no line, or next to none, is left beyond it.
+  const double middle = 0.5 * (event.from + event.to), carried = width / part;
+  const double edge = mirrored ? end - middle : std::min(end - middle, middle - begin);
+  const bool close = edge < gap_reaches_edge * 0.5 * gap_inside * carried;
+  event.value = 1.0 - (close ? width / std::max(2.0 * edge / gap_inside, 0.5 * carried) : part);
   return event;
+}
+
+/// The same dips, and where the line begins at the mid-point of a half chain their images.
+std::vector<ContactEvent> on_both_halves(std::vector<ContactEvent> dips, double mid) {
+  const std::size_t count = dips.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    ContactEvent image = dips[k];
+    image.s = 2.0 * mid - image.s;
+    image.from = 2.0 * mid - dips[k].to;
+    image.to = 2.0 * mid - dips[k].from;
+    if (dips[k].from > mid) dips.push_back(image);
+  }
+  return dips;
 }
 
 /// Two touches at the ends of a short gap: with it their curvature, its height and all that tells them apart vanishes.
@@ -159,26 +232,26 @@ bool hardly_apart(const Profile& profile, int link) {
   return touches == 2;
 }
 
-/// What meets where a gap closes.
-struct Sides {
-  int edges = 0, touches = 0;
-};
-
-Sides sides(const Profile& profile, int link) {
-  Sides out;
-  for (const Contact& c : profile.contacts)
-    if (c.joint == link || c.joint == link + 1) ++(c.edge ? out.edges : out.touches);
-  return out;
-}
-
-/// Length below which the line beside a gap carries it; some shorter than it was when it became an arc.
-std::optional<double> carried_length(const Sides& at, bool begins_at_mid) {
+/// Length of a gap over that which its line carries, by the forces at its ends, less than the one when it became an arc; nothing
+/// where no line carries it.
+std::optional<double> beyond_carried(const Profile& profile, int link, bool begins_at_mid) {
   constexpr double shorter = 0.75;
-  const double inside = shorter * gap_inside * carried_inside;
-  if (begins_at_mid && at.edges == 1 && at.touches == 0) return 0.5 * inside;
-  if (at.edges == 2) return inside;
-  if (at.edges == 1 && at.touches == 1) return shorter * gap_beside_touch * carried_beside_touch;
-  return std::nullopt;
+  int edges = 0, touches = 0;
+  double force = 0.0;
+  for (const Contact& c : profile.contacts) {
+    if (c.joint != link && c.joint != link + 1) continue;
+    ++(c.edge ? edges : touches);
+    if (c.edge) force += c.force;
+  }
+  const bool about_mid = begins_at_mid && edges == 1 && touches == 0,
+             beside_touch = edges == 1 && touches == 1;
+  if (!about_mid && !beside_touch && edges != 2) return std::nullopt;
+  const double length = length_of(profile.pieces[link]), mean = std::max(force / edges, 0.0);
+  const double height = 0.96 * mean * std::pow(about_mid ? length : 0.5 * length, 3);
+  double part = std::pow(height / carried_inside, 1.0 / 6.0);
+  // Beside a touch the gap may have opened inside the line and reached its edge.
+  if (beside_touch) part = std::max(part, std::cbrt(4.32 * mean * length / carried_beside_touch));
+  return part - shorter;
 }
 
 /// A line without pressure (see rod::buckling_margin) has none to stand for a gap.
@@ -191,11 +264,16 @@ bool beside_unpressed(const Profile& profile, int link) {
 ContactEvent length_event(const Profile& profile, int i, bool begins_at_mid) {
   const Piece& piece = profile.pieces[i];
   const bool gap = piece.stretch == Stretch::gap;
-  const Sides at = gap ? sides(profile, i) : Sides{};
   const auto carried =
-      gap && !beside_unpressed(profile, i) ? carried_length(at, begins_at_mid) : std::nullopt;
-  const double least = (gap && at.touches == 2 ? least_between_touches : least_length) * profile.unit_length;
-  ContactEvent event{Kind::length, i, length_of(piece) - carried.value_or(least), piece.s(0)};
+      gap && !beside_unpressed(profile, i) ? beyond_carried(profile, i, begins_at_mid) : std::nullopt;
+  const auto is_touch = [&](const Contact& c) { return !c.edge && (c.joint == i || c.joint == i + 1); };
+  const bool between_touches =
+      gap && std::count_if(profile.contacts.begin(), profile.contacts.end(), is_touch) == 2;
+  const double shortest = piece.stretch == Stretch::tail ? shortest_tail
+                          : between_touches              ? least_between_touches
+                                                         : least_length;
+  const double least = shortest * profile.unit_length;
+  ContactEvent event{Kind::length, i, carried.value_or(length_of(piece) - least), piece.s(0)};
   event.redrawn = carried.has_value();
   event.imminent = hardly_apart(profile, i);
   return event;
@@ -225,15 +303,17 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
     const Piece& piece = profile.pieces[i];
     const bool at_mid = topology.half && i == 0;
     if (piece.stretch == Stretch::line) {
-      const std::vector<ContactEvent> pressures = dips(piece, i, at_mid && !topology.mid_touch);
+      const bool from_mid = at_mid && !topology.mid_touch;
+      const DensePressure dense = dense_pressure(piece);
+      const std::vector<ContactEvent> pressures = dips(piece, dense, i, from_mid);
+      const std::vector<ContactEvent> all = from_mid ? on_both_halves(pressures, piece.s(0)) : pressures;
       events.push_back(pressures.front());
-      events.push_back(suction(piece, pressures.front()));
+      events.push_back(suction(dense, pressures.front(), all));
       for (std::size_t k = 1; k < pressures.size(); ++k)
-        if (const ContactEvent other = suction(piece, pressures[k]); other.value < events.back().value)
+        if (const ContactEvent other = suction(dense, pressures[k], all); other.value < events.back().value)
           events.back() = other;
     }
-    if (piece.stretch != Stretch::tail)
-      events.push_back(length_event(profile, i, at_mid && !topology.mid_touch));
+    events.push_back(length_event(profile, i, at_mid && !topology.mid_touch));
     if (piece.stretch == Stretch::line)
       events.push_back({Kind::buckling, i, piece.buckling.value_or(far), piece.s(0)});
     else

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "entry.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/equilibrium/opening.hpp"
 #include "windlass/equilibrium/rod_problem.hpp"
@@ -14,44 +15,11 @@ namespace {
 
 using Kind = ContactEvent::Kind;
 
-/// A state on another topology, and the parameters at which it is one.
-struct Entry {
-  std::shared_ptr<RodProblem> problem;
-  Vector x, p;
-};
-
 /// Can this state be the continuation? At the event itself forces vanish, to within rounding.
 bool admissible(const std::vector<ContactEvent>& events) {
   return std::all_of(events.begin(), events.end(), [](const ContactEvent& event) {
     return event.passes || event.value >= (event.kind == Kind::length ? 1e-6 : -1e-6);
   });
-}
-
-/// The successor's problem, with the old shape as guess.
-Entry draft(const RodProblem& from, const Successor& next, const chain::Profile& shape, const Vector& p,
-            bool redrawn) {
-  constexpr int elements = 4;
-  std::vector<chain::ArcMesh> meshes;
-  for (int source : next.source)
-    meshes.push_back(from.meshes().empty() ? chain::ArcMesh{} : from.meshes()[source]);
-  const std::vector<chain::Stretch>&before = from.topology().stretches, &now = next.topology.stretches;
-  for (std::size_t i = 0; i < meshes.size(); ++i) {
-    if (meshes[i].nodes.size() > elements && before[next.source[i]] == now[i]) continue;
-    // Was a closed form, or a smooth line of several turns.
-    const double length = std::min(std::abs(next.s[i + 1] - next.s[i]), 40.0);
-    meshes[i].nodes = chain::uniform_mesh(std::max(elements, static_cast<int>(std::ceil(length))));
-  }
-  // In a short arc every element more is a place more where rounding of the frames bends the rod.
-  for (int link : next.opened) {
-    constexpr double short_arc = 0.1;
-    meshes[link].nodes =
-        chain::uniform_mesh(next.s[link + 1] - next.s[link] < short_arc && redrawn ? 1 : elements);
-  }
-  const scene::Scene scene = from.scene_at(p);
-  choose_tails(meshes, next.topology, from.rod(), loads_of(scene), next.s);
-  auto problem = std::make_shared<RodProblem>(scene, from.spatial(), next.topology, meshes, from.keys());
-  const Vector guess = chain::guess_state(problem->chain(), next.topology, problem->rod(), shape, next.s);
-  return {problem, guess, p};
 }
 
 bool holds(Entry& entry) {
@@ -161,6 +129,14 @@ double length_of(Entry& entry, int link) {
   return entry.problem->chain().length(entry.x, entry.problem->loads(entry.p), link);
 }
 
+/// How far in p(0) the place where a tail has no length is from where it has hardly any.
+double to_the_end(RodProblem& problem, const Vector& x, const Vector& p, int link) {
+  const double length = problem.chain().length(x, problem.loads(p), link);
+  Vector longer = x, beside = p;
+  const bool solved = tried([&] { return solve_at_length(problem, longer, beside, link, 2.0 * length); });
+  return solved ? std::abs(beside(0) - p(0)) : -1.0;
+}
+
 /// Brings an opened arc to the length that it is entered with, as far as the contacts hold: longer ones lie further from
 /// the event, in shorter ones rounding moves the edges, by its size over the edges' force, length³.
 void adjust_length(Entry& entry, int link) {
@@ -178,11 +154,30 @@ void adjust_length(Entry& entry, int link) {
   }
 }
 
+/// Brings an opened arc to the length that it has at p(0) = p, by the secant method: its length answers to the load steeply,
+/// the load to its length mildly. @returns whether it is there
+bool bring_to(Entry& entry, int link, double p) {
+  constexpr int most = 12;
+  const double close = 1e-10 * std::max(1.0, std::abs(p));
+  Entry other = entry;
+  double last = length_of(other, link), length = 1.2 * last, last_p = other.p(0);
+  for (int k = 0; k < most && std::abs(last_p - p) > close; ++k) {
+    if (!tried([&] { return solve_at_length(*entry.problem, other.x, other.p, link, length); })) return false;
+    entry.x = other.x, entry.p = other.p;
+    const double slope = (other.p(0) - last_p) / (length - last);
+    last = length, last_p = other.p(0);
+    if (slope == 0.0) return false;
+    length = std::clamp(last + (p - last_p) / slope, 0.7 * last, 1.4 * last);
+  }
+  return std::abs(last_p - p) <= close;
+}
+
 /// Solves for a successor with opened arcs. Where the pressure is lost in several places almost at once, the state with
 /// one gap open has suction in another: that opens too, and so on.
 /// @param opened   links of `entry`, the one that keeps its length first
-/// @param as_long  as it is; else brought to the length that arcs are entered with
-std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, int depth, bool as_long) {
+/// @param as_long  as it is at p(0) = p; else brought to the length that arcs are entered with
+std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, int depth, bool as_long,
+                                  double p) {
   if (!settle_shape(*entry.problem, entry.x, entry.p, opened)) return std::nullopt;
   const double length = length_of(entry, opened.front());
   if (!solve_at_length(*entry.problem, entry.x, entry.p, opened.front(), length)) return std::nullopt;
@@ -191,6 +186,7 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, i
     entry.x = *finer;
     if (!solve_at_length(*entry.problem, entry.x, entry.p, opened.front(), length)) return std::nullopt;
   }
+  if (as_long && !bring_to(entry, opened.front(), p)) return std::nullopt;
   const chain::Profile shape = entry.problem->profile(entry.x, entry.p);
   const Topology& topology = entry.problem->topology();
   const std::vector<ContactEvent> events = contact_events(shape, topology);
@@ -200,17 +196,18 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, i
   }
   const auto worst = std::min_element(events.begin(), events.end(),
                                       [](const auto& a, const auto& b) { return a.value < b.value; });
-  if (depth == 0 || (worst->kind != Kind::pressure && worst->kind != Kind::suction)) return std::nullopt;
+  if (depth == 0) return std::nullopt;
   const std::vector<double> s = entry.problem->joint_places(entry.x, entry.p, shape);
   for (const Successor& next : successors(*worst, shape, topology, s)) {
-    if (next.opened.empty()) continue;
     std::vector<int> all;
-    for (const int link : opened)
-      all.push_back(
-          static_cast<int>(std::find(next.source.begin(), next.source.end(), link) - next.source.begin()));
+    for (const int link : opened) {
+      const auto now = std::find(next.source.begin(), next.source.end(), link);
+      if (now != next.source.end()) all.push_back(static_cast<int>(now - next.source.begin()));
+    }
     all.insert(all.end(), next.opened.begin(), next.opened.end());
+    if (all.empty() || next.nothing_left || next.at_end) continue;
     if (auto found =
-            open_in_turn(draft(*entry.problem, next, shape, entry.p, as_long), all, depth - 1, as_long))
+            open_in_turn(draft(*entry.problem, next, shape, entry.p, as_long), all, depth - 1, as_long, p))
       return found;
   }
   return std::nullopt;
@@ -241,7 +238,7 @@ std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const 
   }
   if (!next.opened.empty()) {
     tried([&] {
-      entered = open_in_turn(guess, next.opened, most_together, event.redrawn);
+      entered = open_in_turn(guess, next.opened, most_together, event.redrawn, guess.p(0));
       return true;
     });
     return entered;
@@ -280,13 +277,18 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
       transition.after = "no contact";
       return transition;  // null problem: the branch ends here
     }
+    if (next.at_end) {
+      transition.after = "contact at the rod's end";
+      transition.precision = to_the_end(*std::static_pointer_cast<RodProblem>(clone()), x, p, event.place);
+      return transition;
+    }
     const Entry entry = draft(*this, next, shape, p, event.redrawn);
     transition.state = entry.x;
     transition.problem = entry.problem;
     if (!first) first = transition;
     const bool shrinks = event.kind == Kind::length && straight_line(*this, event.place) >= 0;
-    const std::optional<Entry> found = enter(entry, event, next, shrinks, transition.precision);
-    if (!found) continue;
+    std::optional<Entry> found = enter(entry, event, next, shrinks, transition.precision);
+    if (!found || !tried([&] { return found->problem->settle(found->x, found->p), true; })) continue;
     const auto here = std::static_pointer_cast<RodProblem>(clone());
     if (shrinks)
       transition.located = located_onset({here, x, p}, event.place, *found);

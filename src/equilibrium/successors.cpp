@@ -178,6 +178,13 @@ std::vector<Successor> after_graze(const ContactEvent& event, Strip strip) {
   return {strip.successor()};
 }
 
+/// What touches at the rod's end need not be tangent there: another mechanics.
+Successor end_of_rod(const Strip& strip) {
+  Successor next = strip.successor();
+  next.at_end = true;
+  return next;
+}
+
 /// A line that has buckled off its obstacle: its edges are touches now.
 Successor bowed(int link, Strip strip) {
   strip.parts[link].kind = Stretch::gap;
@@ -197,6 +204,7 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
       if (vanishes(strip, event.place)) return after_length(event.place, strip);
       return after_pressure(event, strip, profile.pieces[event.place]);
     case Kind::length:
+      if (profile.pieces[event.place].stretch == Stretch::tail) return {end_of_rod(strip)};
       return after_length(event.place, strip);
     case Kind::force:
       for (const int link : {event.place - 1, event.place})

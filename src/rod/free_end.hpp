@@ -8,8 +8,17 @@
 ///             = √(1 − x) R_F(x, ρ, 1),   x = ρ (1 − q)/(1 − ρq)      (Carlson's R_F; NIST DLMF 19.25.5).
 namespace windlass::rod {
 
+/// ρ and 1 − ρ, both to all digits: far from the end the one is next to nothing, close to it the other, ~ u².
+struct EndRatio {
+  double rho = 0.0, deficit = 1.0;
+  static EndRatio of_log(double log_rho);
+  /// cosh²v = 1/ρ: how much sin²(ψ/2) has grown since the end.
+  static EndRatio of_growth(double v);
+  double growth() const;
+};
+
 struct FreeEnd {
-  double ratio = 0.0;       ///< ρ in [0, 1)
+  EndRatio ratio;
   double log_slope = -0.5;  ///< ρ ∂u/∂ρ
   double by_q = 0.0;        ///< ∂ρ/∂q at constant u
   double by_u = 0.0;        ///< ∂ρ/∂u at constant q
@@ -22,14 +31,14 @@ inline constexpr double far_end = 40.0;
 struct Elapsed {
   double u, log_slope;
 };
-Elapsed elapsed(double ratio, double q);
+Elapsed elapsed(const EndRatio& ratio, double q);
 /// u(ρ, q) alone.
-double time_from_end(double ratio, double q);
+double time_from_end(const EndRatio& ratio, double q);
 
 /// The free end u decay lengths away. @param u  > 0
 FreeEnd free_end(double u, double q);
 
 /// Bending energy between here and the end, over 2 √(B T). @param u  u(ρ, q)
-double bending(double ratio, double log_slope, double q, double u);
+double bending(const EndRatio& ratio, double log_slope, double q, double u);
 
 }  // namespace windlass::rod

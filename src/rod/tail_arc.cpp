@@ -18,11 +18,11 @@ struct TailArc::State {
   double psi;                  ///< signed in the plane
   double c, q;                 ///< cos ψ, sin²(ψ/2)
   FreeEnd end;
-  double decay() const { return std::sqrt((1.0 - end.ratio) / (1.0 - q)); }
+  double decay() const { return std::sqrt(end.ratio.deficit / (1.0 - q)); }
   double by_c() const { return -root * decay(); }
-  double by_cc() const { return 0.25 * root * decay() * (1.0 / (1.0 - q) - end.by_q / (1.0 - end.ratio)); }
-  double by_length() const { return -tension * (1.0 - 2.0 * end.ratio * q); }
-  double by_c_length() const { return -tension * (end.ratio + q * end.by_q); }
+  double by_cc() const { return 0.25 * root * decay() * (1.0 / (1.0 - q) - end.by_q / end.ratio.deficit); }
+  double by_length() const { return -tension * (1.0 - 2.0 * end.ratio.rho * q); }
+  double by_c_length() const { return -tension * (end.ratio.rho + q * end.by_q); }
   double by_length_twice() const { return 2.0 * tension * q * end.by_u * rate; }
 };
 
@@ -128,15 +128,16 @@ struct TailArc::FromEnd {
 /// Dense near the joint. With the energy between joint and sample, ∫ cos ψ ds = cos ψ_e d − E/T, since the Hamiltonian is
 /// constant; ∫ sin ψ ds is the fall of the moment over T.
 TailArc::Place TailArc::place(const State& s, double length, int sample) const {
-  const double x = static_cast<double>(sample) / (samples - 1), rho = s.end.ratio;
-  const double start = std::abs(s.psi), moment = 2.0 * s.root * std::sqrt(s.q * (1.0 - rho));
+  const double x = static_cast<double>(sample) / (samples - 1), rho = s.end.ratio.rho;
+  const double start = std::abs(s.psi), moment = 2.0 * s.root * std::sqrt(s.q * s.end.ratio.deficit);
   if (sample == 0) return {0.0, start, 0.0, 0.0, moment};
   Place p{length * x * x, 0.0, 0.0, 0.0, 0.0};
-  double q = 0.0, ratio = 0.0, slope = -0.5, from_end = HUGE_VAL;
+  double q = 0.0, slope = -0.5, from_end = HUGE_VAL;
+  EndRatio ratio;
   if (rho > 0.0) {
     // A straight tail has sin²(ψ/2) ∝ cosh²u; near it that spaces the samples, and u is exact for each.
-    const double v = std::acosh(1.0 / std::sqrt(rho)) * (1.0 - x * x), grown = std::cosh(v);
-    ratio = 1.0 / (grown * grown);
+    const double v = s.end.ratio.growth() * (1.0 - x * x), grown = std::cosh(v);
+    ratio = EndRatio::of_growth(v);
     q = s.q * rho * grown * grown;
     p.distance = length;
     if (sample + 1 < samples) {
@@ -150,9 +151,9 @@ TailArc::Place TailArc::place(const State& s, double length, int sample) const {
     q = 4.0 * e * e / (wide * wide);
   }
   p.psi = 2.0 * std::asin(std::sqrt(q));
-  p.moment = 2.0 * s.root * std::sqrt(q * (1.0 - ratio));
-  const double rest = ratio < 1.0 ? bending(ratio, slope, q, from_end) : 0.0;
-  const double spent = bending(rho, s.end.log_slope, s.q, s.rate * length) - rest;
+  p.moment = 2.0 * s.root * std::sqrt(q * ratio.deficit);
+  const double rest = ratio.deficit > 0.0 ? bending(ratio, slope, q, from_end) : 0.0;
+  const double spent = bending(s.end.ratio, s.end.log_slope, s.q, s.rate * length) - rest;
   p.ahead = (1.0 - 2.0 * rho * s.q) * p.distance - 2.0 * s.root / s.tension * spent;
   p.aside = (moment - p.moment) / s.tension;
   return p;
@@ -206,7 +207,7 @@ double TailArc::decay_length(const ArcPoint& at) const {
 /// sin²(ψ/2) at a distance from the joint, (ρ q) cosh²v with dv/du = cos(ψ/2), u counted from the end; v by Newton's method.
 /// @param near  u and v of a place nearer to the joint; left as those of this one
 double TailArc::half_sine_squared(const State& s, double length, double distance, FromEnd& near) const {
-  const double rho = s.end.ratio;
+  const double rho = s.end.ratio.rho;
   if (rho <= 0.0) {
     const double e = std::tan(0.25 * std::abs(s.psi)) * std::exp(-s.rate * distance), wide = 1.0 + e * e;
     return 4.0 * e * e / (wide * wide);
@@ -217,7 +218,7 @@ double TailArc::half_sine_squared(const State& s, double length, double distance
   double v = std::max(0.5 * near.v, near.v + (goal - near.u) * std::sqrt(1.0 - q_at(near.v)));
   for (int k = 0; k < 20; ++k) {
     const double q = q_at(v);
-    const double step = (goal - time_from_end(std::pow(std::cosh(v), -2), q)) * std::sqrt(1.0 - q);
+    const double step = (goal - time_from_end(EndRatio::of_growth(v), q)) * std::sqrt(1.0 - q);
     v = std::max(0.5 * v, v + step);
     if (std::abs(step) < 1e-7 * (1.0 + v)) break;  // squared by the last step
   }
@@ -235,7 +236,7 @@ Eigen::MatrixXd TailArc::configurations(const ArcPoint& at, const Eigen::VectorX
     axis = KirchhoffDensity{}.direction(Eigen::Map<const Quaternion>(q0)).cross(n / s.tension);
     if (axis.norm() > 0.0) axis.normalize();
   }
-  FromEnd near{s.rate * at.length, s.end.ratio > 0.0 ? std::acosh(1.0 / std::sqrt(s.end.ratio)) : 0.0};
+  FromEnd near{s.rate * at.length, s.end.ratio.rho > 0.0 ? s.end.ratio.growth() : 0.0};
   for (Eigen::Index k = 0; k < distances.size(); ++k) {
     const double q = half_sine_squared(s, at.length, distances(k), near);
     const double psi = 2.0 * std::asin(std::sqrt(q)), start = std::abs(s.psi);

@@ -92,6 +92,7 @@ class Walker {
   Point here(PointType type) const;
   std::vector<double> function_values(const Vector& x, const Vector& p) const;
   void adapt();
+  void settle_event(Point& event, const std::string& name);
 
   // walker_transition.cpp
   void say_what_follows(Point& event) const;

@@ -14,18 +14,20 @@
 /// | pressure | least pressure on a line contact | a gap opens, or closes; a line that is pressed evenly lifts |
 /// | suction | 1 less the width on which a line contact pulls, over what a line carries for a gap | that gap, as an arc |
 /// | length | length of a line contact, or of a gap between touches, less `least_length`; of a gap beside a line less what the
-/// line carries | a touch in its place; the line |
+/// line carries; of a tail less `shortest_tail` | a touch in its place; the line; nothing, the contact is at the rod's end |
 /// | force | point force at a touch or an edge | the touch is lost (an edge: no successor is known) |
 /// | curvature | g'' at a touch, on a plane less `least_curvature` | the touch flattens into a line, or comes apart into two |
 /// | graze | least gap inside a free arc, of each obstacle | a new touch |
 /// | buckling | margin of a line without pressure against its own buckling | it bows off the obstacle between two touches |
 ///
 /// **A gap that has just opened is carried by its line.** Where the pressure p of a line contact is negative, the rod lifts: a
-/// beam under p₀ + a s²/2 over a gap of half-length h, h² = −10 p₀/a, to the height a h⁶/720B, with forces a h³/15 at the gap's
-/// edges; beside a touch, under p_e + b s, over a length ℓ = −(5/3) p_e/b, by an angle to the touch that costs the moment
-/// bℓ³/60. Long before such a gap is long enough for an arc of its own (in which rounding of the frames, over the edges' force,
-/// would move its edges) the line with the suction in it is the same state to all digits. So `pressure` only says where
-/// contacts open, and the gap becomes an arc where its suction is as wide as `carried_inside` or `carried_beside_touch`.
+/// beam under p₀ + a s²/2, negative on a width w = √(−8 p₀/a), over a gap of half-length h = √5 w/2, to the height a h⁶/720B,
+/// with forces a h³/15 at the gap's edges; beside a touch, under p_e + b s, negative on w = −p_e/b, over a length 5w/3, by an
+/// angle to the touch that costs the moment bℓ³/60, with the force bℓ²/20 at the edge. Long before such a gap is an arc that
+/// can be solved for (rounding of the frames, over the edges' force, moves its edges) the line with the suction in it is the
+/// same state to all digits. So `pressure` only says where contacts open, and the gap becomes an arc where its height, or the
+/// moment at the touch, is as large as `carried_inside` or `carried_beside_touch` says: by what it does to the state, not by
+/// its width, for a pressure that is nearly even pulls weakly on a wide stretch.
 namespace windlass::equilibrium {
 
 /// Forces of an arc of length ℓ carry rounding errors like 1/ℓ: it gives way to the topology without it this early, and
@@ -33,6 +35,9 @@ namespace windlass::equilibrium {
 inline constexpr double least_length = 1e-3;
 /// The curvature of two touches falls with the square of the gap between them; here it still is a hundred times its rounding.
 inline constexpr double least_between_touches = 5e-3;
+
+/// A tail gives way this early, in the same units: its moment, of its own size, has rounding errors like 1/ℓ.
+inline constexpr double shortest_tail = 1e-6;
 
 /// On a plane a touch whose curvature vanishes is where branches meet: between clamps the free part is a whole wave and about
 /// to buckle; beside a part that has bowed off the plane, straight and bowed states cross (PHYSICS, "Struts between walls").
@@ -45,9 +50,10 @@ inline constexpr double least_curvature = 1e-3;
 /// from an edge, in half-lengths, at which a gap reaches it: next to no line would be left between.
 inline constexpr double gap_inside = 2.23606797749978969641, gap_beside_touch = 5.0 / 3.0,
                         gap_reaches_edge = 1.5;
-/// Widths of suction a line carries for a gap [ρ]. The height of the gap is then below 1e-11; energy
-/// and R_tot, which see the square of what the line does wrong, change by less than 1e-9, the moment at a touch by 1e-7.
-inline constexpr double carried_inside = 0.036, carried_beside_touch = 0.018;
+/// What a line carries for a gap: |p₀| w⁴ and |p_e| w² [EI/ρ³·ρ⁴ and ρ²]. Under a = 1 and b = 1 that is w = 0.036 and 0.018. The
+/// height of the gap is then below 1e-11; energy and R_tot, which see the square of what the line does wrong, change by less
+/// than 1e-9, the moment at a touch by 1e-7.
+inline constexpr double carried_inside = 2.1e-10, carried_beside_touch = 5.8e-6;
 
 struct ContactEvent {
   enum class Kind { pressure, suction, length, force, curvature, graze, buckling };
@@ -74,6 +80,7 @@ struct Successor {
   std::vector<int> opened;    ///< links that have no length at the event itself
   int bowed = -1;             ///< link that has no bow at the event itself, −1: none
   bool nothing_left = false;  ///< no contact remains: the branch ends
+  bool at_end = false;        ///< a contact has reached the rod's end, no tail remains: the branch ends
 };
 
 /// Candidates for what follows the event, most likely first.

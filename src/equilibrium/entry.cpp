@@ -1,0 +1,61 @@
+#include "entry.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "windlass/equilibrium/start.hpp"
+
+namespace windlass::equilibrium {
+
+namespace {
+
+constexpr int elements = 4;  // of an arc, at least
+
+/// The elements that the old arcs have between two places, in scaled arclength: an arc cut in two, or made of several, is as
+/// finely resolved as they were. What has just closed leaves none.
+std::vector<double> inherited(const chain::Profile& shape, double begin, double end) {
+  constexpr double apart = 0.1;  // of the element before, and of the unit
+  std::vector<double> nodes{0.0};
+  const double least = apart * shape.unit_length / (end - begin);
+  for (const chain::Piece& piece : shape.pieces) {
+    if (piece.stride == 1) continue;  // a formula
+    for (Eigen::Index k = 0; k < piece.s.size(); k += piece.stride) {
+      const double node = (piece.s(k) - begin) / (end - begin);
+      if (node > nodes.back() + least && node < 1.0 - least) nodes.push_back(node);
+    }
+  }
+  nodes.push_back(1.0);
+  return nodes;
+}
+
+}  // namespace
+
+Entry draft(const RodProblem& from, const Successor& next, const chain::Profile& shape, const Vector& p,
+            bool redrawn) {
+  std::vector<chain::ArcMesh> meshes;
+  for (int source : next.source)
+    meshes.push_back(from.meshes().empty() ? chain::ArcMesh{} : from.meshes()[source]);
+  const std::vector<chain::Stretch>&before = from.topology().stretches, &now = next.topology.stretches;
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    const double length = next.s[i + 1] - next.s[i];
+    if (now[i] == chain::Stretch::line && length > 0.0 && std::isfinite(length))
+      meshes[i].nodes = inherited(shape, next.s[i], next.s[i + 1]);
+    if (meshes[i].nodes.size() > elements && before[next.source[i]] == now[i]) continue;
+    // Was a closed form, or a smooth line of several turns.
+    const double most = std::min(std::abs(length), 40.0);
+    meshes[i].nodes = chain::uniform_mesh(std::max(elements, static_cast<int>(std::ceil(most))));
+  }
+  // In a short arc every element more is a place more where rounding of the frames bends the rod.
+  for (int link : next.opened) {
+    constexpr double short_arc = 0.1;
+    meshes[link].nodes =
+        chain::uniform_mesh(next.s[link + 1] - next.s[link] < short_arc && redrawn ? 1 : elements);
+  }
+  const scene::Scene scene = from.scene_at(p);
+  choose_tails(meshes, next.topology, from.rod(), loads_of(scene), next.s);
+  auto problem = std::make_shared<RodProblem>(scene, from.spatial(), next.topology, meshes, from.keys());
+  const Vector guess = chain::guess_state(problem->chain(), next.topology, problem->rod(), shape, next.s);
+  return {problem, guess, p};
+}
+
+}  // namespace windlass::equilibrium

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <memory>
+
+#include "windlass/equilibrium/contact_events.hpp"
+#include "windlass/equilibrium/rod_problem.hpp"
+
+namespace windlass::equilibrium {
+
+/// A state on another topology, and the parameters at which it is one.
+struct Entry {
+  std::shared_ptr<RodProblem> problem;
+  Vector x, p;
+};
+
+/// The successor's problem, with the old shape as guess.
+/// @param redrawn  its opened arcs are carried by a line as yet, and short
+Entry draft(const RodProblem& from, const Successor& next, const chain::Profile& shape, const Vector& p,
+            bool redrawn);
+
+}  // namespace windlass::equilibrium
