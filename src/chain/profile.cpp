@@ -228,6 +228,7 @@ Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod
                 const Loads& loads) {
   Profile out;
   out.obstacles = rod.obstacles;
+  out.material = rod.material();
   out.unit_length = rod.unit_length;
   for (int i = 0; i < chain.link_count(); ++i)
     out.pieces.push_back(sample_link(chain, rod, x, loads, i, topology));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "windlass/bvp/collocation_table.hpp"
+#include "windlass/rod/free_flow.hpp"
 
 namespace windlass::equilibrium {
 
@@ -51,6 +52,34 @@ Least least_near(const Piece& piece, const Eigen::VectorXd& values, double s, do
   return least;
 }
 
+/// A least gap found on an element's polynomial, brought to where it is on the rod's own way through the element: between the
+/// element's ends, where the state is known to more digits, the polynomial may be off by more than events allow.
+Least on_its_way(const Profile& profile, const Piece& piece, const obstacle::Surface& surface, Least least) {
+  Eigen::Index node = 0;
+  const Eigen::Index last = piece.s.size() - 1;
+  while (node + piece.stride < last && least.s > piece.s(node + piece.stride)) node += piece.stride;
+  const rod::Section start{piece.r.col(node), piece.m.col(node), piece.q.col(node)};
+  const Eigen::Vector3d n = piece.n.col(node);
+  const double reach = piece.s(node + piece.stride) - piece.s(node);
+  const auto section_at = [&](double s) {
+    return rod::free_flow(start, n, profile.material, s - piece.s(node));
+  };
+  const auto slope_at = [&](const rod::Section& at) {
+    return surface.normal(at.r).dot(rod::directors(at.q).col(2));
+  };
+  constexpr double beside = 1e-4;
+  double s = least.s;
+  rod::Section at = section_at(s);
+  for (int k = 0; k < 3; ++k) {
+    const double slope = slope_at(at), curvature = (slope_at(section_at(s + beside)) - slope) / beside;
+    const double step = -slope / curvature;
+    if (!(curvature > 0.0) || std::abs(step) > reach) break;
+    at = section_at(s += step);
+    if (std::abs(step) < beside * beside) break;
+  }
+  return {surface.gap(at.r), s};
+}
+
 /// Least local minimum of the gap to an obstacle inside a free arc. Next to a contact the gap is flat and its samples are
 /// rounding; a minimum must stand out by more than that.
 ContactEvent graze(const Profile& profile, int obstacle, int link, bool starts_at_mid) {
@@ -69,7 +98,10 @@ ContactEvent graze(const Profile& profile, int obstacle, int link, bool starts_a
   if (starts_at_mid && g(0) < g(1)) event = at(g(0), piece.s(0));
   for (Eigen::Index k = 1; k + 1 < count; ++k) {
     if (g(k) > g(k - 1) - noise || g(k) > g(k + 1)) continue;
-    const Least least = least_near(piece, g, piece.s(k), g(k), piece.s(k - 1), piece.s(k + 1));
+    Least least = least_near(piece, g, piece.s(k), g(k), piece.s(k - 1), piece.s(k + 1));
+    constexpr double near = 1e-3;
+    if (piece.stride > 1 && least.value < near * profile.unit_length)
+      least = on_its_way(profile, piece, surface, least);
     if (least.value < event.value) event = at(least.value, least.s);
   }
   return event;

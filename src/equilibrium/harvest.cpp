@@ -37,11 +37,10 @@ void Harvest::on_point(const Branch&, const Point& point) {
   // A branch point is passed like any other point, and one that breaks the symmetry belongs to another problem.
   if (point.type == PointType::branch_point) return;
   if (point.type == PointType::regular) ++points_;
-  const bool special = point.type == PointType::fold || point.type == PointType::event;
   const Place here{point.problem, point.x, point.p, point.tangent};
   if (last_ && between(last_->p(0), point.p(0)) && last_->p(0) != goal_) {
-    // A special point is reached from the point before, on whose mesh it was found; any other is left backwards.
-    if (special)
+    // A fold is reached from the point before, on whose mesh it was found; any other is left backwards.
+    if (point.type == PointType::fold)
       reach(point.problem, *last_, 1.0);
     else
       reach(point.problem, here, -1.0);

@@ -4,6 +4,7 @@
 
 #include "windlass/chain/chain.hpp"
 #include "windlass/chain/topology.hpp"
+#include "windlass/rod/line_contact.hpp"
 
 /// A chain's state as a curve in space: what events, output, and guesses for other topologies read.
 namespace windlass::chain {
@@ -40,6 +41,7 @@ struct Profile {
   std::vector<Piece> pieces;      ///< in the order of the chain's links
   std::vector<Contact> contacts;  ///< in the order of the chain's joints
   obstacle::Set obstacles;
+  rod::Material material;
   double unit_length = 1.0;  ///< see RodKind
 
   double begin() const { return pieces.front().s(0); }

@@ -36,8 +36,8 @@ inline constexpr double least_length = 1e-3;
 /// The curvature of two touches falls with the square of the gap between them; here it still is a hundred times its rounding.
 inline constexpr double least_between_touches = 5e-3;
 
-/// A tail gives way this early, in the same units: its moment, of its own size, has rounding errors like 1/ℓ.
-inline constexpr double shortest_tail = 1e-6;
+/// A tail gives way this early, in the same units: its moment, of its own size, has rounding errors of its frames over ℓ.
+inline constexpr double shortest_tail = 1e-4;
 
 /// On a plane a touch whose curvature vanishes is where branches meet: between clamps the free part is a whole wave and about
 /// to buckle; beside a part that has bowed off the plane, straight and bowed states cross (PHYSICS, "Struts between walls").
