@@ -157,15 +157,17 @@ void adjust_length(Entry& entry, int link) {
 /// Brings an opened arc to the length that it has at p(0) = p, by the secant method: its length answers to the load steeply,
 /// the load to its length mildly. @returns whether it is there
 bool bring_to(Entry& entry, int link, double p) {
-  constexpr int most = 12;
+  constexpr int most = 20;
   const double close = 1e-10 * std::max(1.0, std::abs(p));
-  Entry other = entry;
-  double last = length_of(other, link), length = 1.2 * last, last_p = other.p(0);
+  double last = length_of(entry, link), length = 1.2 * last, last_p = entry.p(0);
   for (int k = 0; k < most && std::abs(last_p - p) > close; ++k) {
-    if (!tried([&] { return solve_at_length(*entry.problem, other.x, other.p, link, length); })) return false;
-    entry.x = other.x, entry.p = other.p;
+    Entry other = entry;
+    if (!tried([&] { return solve_at_length(*entry.problem, other.x, other.p, link, length); })) {
+      length = 0.5 * (last + length);
+      continue;
+    }
     const double slope = (other.p(0) - last_p) / (length - last);
-    last = length, last_p = other.p(0);
+    entry = other, last = length, last_p = other.p(0);
     if (slope == 0.0) return false;
     length = std::clamp(last + (p - last_p) / slope, 0.7 * last, 1.4 * last);
   }
