@@ -187,7 +187,9 @@ void BranchRecorder::on_special_point(const Branch& branch, const Point& point) 
           };
           return rank(a) < rank(b);
         });
-      } catch (const std::exception&) {
+      } catch (const std::domain_error&) {  // no spectrum right at the zero
+        mode.plane = "out", mode.parity = "odd";
+      } catch (const std::runtime_error&) {
         mode.plane = "out", mode.parity = "odd";
       }
     }

@@ -52,32 +52,62 @@ Least least_near(const Piece& piece, const Eigen::VectorXd& values, double s, do
   return least;
 }
 
+/// Samples of an element.
+constexpr int element_parts = 24;
+
+/// A quantity along an arc, dense enough that no dip and no rise of its polynomials is missed.
+struct Dense {
+  Eigen::VectorXd s, value;
+};
+
+Dense dense_samples(const Piece& piece, const Eigen::VectorXd& values) {
+  constexpr int parts = element_parts;
+  const Eigen::Index stride = piece.stride, elements = (piece.s.size() - 1) / stride;
+  Dense out{Eigen::VectorXd(elements * parts + 1), Eigen::VectorXd(elements * parts + 1)};
+  const double first_length = piece.s(stride) - piece.s(0);
+  const Eigen::VectorXd scaled = (piece.s.head(stride + 1).array() - piece.s(0)) / first_length;  // of each
+  Eigen::MatrixXd basis(parts, stride + 1);
+  for (int k = 0; k < parts; ++k)
+    basis.row(k) = bvp::lagrange_basis(scaled, static_cast<double>(k) / parts).transpose();
+  for (Eigen::Index e = 0; e < elements; ++e) {
+    const double begin = piece.s(e * stride), length = piece.s((e + 1) * stride) - begin;
+    for (int k = 0; k < parts; ++k) out.s(e * parts + k) = begin + length * k / parts;
+    out.value.segment(e * parts, parts).noalias() = basis * values.segment(e * stride, stride + 1);
+  }
+  out.s(elements * parts) = piece.s(elements * stride);
+  out.value(elements * parts) = values(elements * stride);
+  return out;
+}
+
 /// A least gap found on an element's polynomial, brought to where it is on the rod's own way through the element: between the
-/// element's ends, where the state is known to more digits, the polynomial may be off by more than events allow.
-Least on_its_way(const Profile& profile, const Piece& piece, const obstacle::Surface& surface, Least least) {
+/// element's ends, where the state is known to more digits, the polynomial may be off by more than events allow, and
+/// next to a contact may dip where the rod does not. Nothing where the rod has no least gap there but its contact.
+std::optional<Least> on_its_way(const Profile& profile, const Piece& piece, const obstacle::Surface& surface,
+                                double s) {
   Eigen::Index node = 0;
   const Eigen::Index last = piece.s.size() - 1;
-  while (node + piece.stride < last && least.s > piece.s(node + piece.stride)) node += piece.stride;
+  while (node + piece.stride < last && s > piece.s(node + piece.stride)) node += piece.stride;
   const rod::Section start{piece.r.col(node), piece.m.col(node), piece.q.col(node)};
   const Eigen::Vector3d n = piece.n.col(node);
   const double reach = piece.s(node + piece.stride) - piece.s(node);
-  const auto section_at = [&](double s) {
-    return rod::free_flow(start, n, profile.material, s - piece.s(node));
+  const auto section_at = [&](double at) {
+    return rod::free_flow(start, n, profile.material, at - piece.s(node));
   };
   const auto slope_at = [&](const rod::Section& at) {
     return surface.normal(at.r).dot(rod::directors(at.q).col(2));
   };
   constexpr double beside = 1e-4;
-  double s = least.s;
   rod::Section at = section_at(s);
-  for (int k = 0; k < 3; ++k) {
+  double step = reach;
+  for (int k = 0; k < 6 && std::abs(step) > beside * beside; ++k) {
     const double slope = slope_at(at), curvature = (slope_at(section_at(s + beside)) - slope) / beside;
-    const double step = -slope / curvature;
-    if (!(curvature > 0.0) || std::abs(step) > reach) break;
+    step = -slope / curvature;
+    if (!(curvature > 0.0) || std::abs(step) > reach) return std::nullopt;
     at = section_at(s += step);
-    if (std::abs(step) < beside * beside) break;
   }
-  return {surface.gap(at.r), s};
+  const double from_ends = std::min(s - piece.s(0), piece.s(last) - s);
+  if (from_ends < beside * reach) return std::nullopt;
+  return Least{surface.gap(at.r), s};
 }
 
 /// Least local minimum of the gap to an obstacle inside a free arc. Next to a contact the gap is flat and its samples are
@@ -96,59 +126,31 @@ ContactEvent graze(const Profile& profile, int obstacle, int link, bool starts_a
   Eigen::VectorXd g(count);
   for (Eigen::Index k = 0; k < count; ++k) g(k) = surface.gap(piece.r.col(k));
   if (starts_at_mid && g(0) < g(1)) event = at(g(0), piece.s(0));
-  for (Eigen::Index k = 1; k + 1 < count; ++k) {
-    if (g(k) > g(k - 1) - noise || g(k) > g(k + 1)) continue;
-    Least least = least_near(piece, g, piece.s(k), g(k), piece.s(k - 1), piece.s(k + 1));
+  const Dense dense = dense_samples(piece, g);
+  for (Eigen::Index k = 1; k + 1 < dense.s.size(); ++k) {
+    if (dense.value(k) > dense.value(k - 1) - noise || dense.value(k) > dense.value(k + 1)) continue;
+    std::optional<Least> least =
+        least_near(piece, g, dense.s(k), dense.value(k), dense.s(k - 1), dense.s(k + 1));
     constexpr double near = 1e-3;
-    if (piece.stride > 1 && least.value < near * profile.unit_length)
-      least = on_its_way(profile, piece, surface, least);
-    if (least.value < event.value) event = at(least.value, least.s);
+    if (piece.stride > 1 && least->value < near * profile.unit_length)
+      least = on_its_way(profile, piece, surface, least->s);
+    if (least && least->value < event.value) event = at(least->value, least->s);
   }
   return event;
 }
 
 double length_of(const Piece& piece) { return piece.s(piece.s.size() - 1) - piece.s(0); }
 
-/// Samples of an element.
-constexpr int element_parts = 24;
-
-/// The pressure of a line, dense enough that no dip and no rise of its polynomials is missed.
-struct DensePressure {
-  Eigen::VectorXd s, p;
-};
-
-DensePressure dense_pressure(const Piece& line) {
-  constexpr int parts = element_parts;
-  const Eigen::Index stride = line.stride, elements = (line.s.size() - 1) / stride;
-  DensePressure out{Eigen::VectorXd(elements * parts + 1), Eigen::VectorXd(elements * parts + 1)};
-  const double first_length = line.s(stride) - line.s(0);
-  const Eigen::VectorXd scaled = (line.s.head(stride + 1).array() - line.s(0)) / first_length;  // of each
-  Eigen::MatrixXd basis(parts, stride + 1);
-  for (int k = 0; k < parts; ++k)
-    basis.row(k) = bvp::lagrange_basis(scaled, static_cast<double>(k) / parts).transpose();
-  for (Eigen::Index e = 0; e < elements; ++e) {
-    const double begin = line.s(e * stride), length = line.s((e + 1) * stride) - begin;
-    out.s.segment(e * parts, parts) =
-        Eigen::VectorXd::LinSpaced(parts, begin, begin + length * (parts - 1) / parts);
-    out.p.segment(e * parts, parts) = basis * line.p.segment(e * stride, stride + 1);
-  }
-  out.s(elements * parts) = line.s(elements * stride);
-  out.p(elements * parts) = line.p(elements * stride);
-  return out;
-}
-
-/// Where the pressure, least at s, rises above `level` on the way to the line's end in the direction `way`; the end itself
+/// Where the pressure, least at `dip`, rises above `level` on the way to the line's end in the direction `way`; the end itself
 /// if nowhere.
-double rises_above(const DensePressure& line, double level, double s, int way) {
+double rises_above(const Dense& line, double level, const Least& dip, int way) {
   const Eigen::Index last = line.s.size() - 1;
-  Eigen::Index k = way > 0 ? 0 : last;  // first sample beyond s
-  while (k >= 0 && k <= last && (line.s(k) - s) * way <= 0.0) k += way;
-  for (; k >= 0 && k <= last; k += way) {
-    if (line.p(k) < level) continue;
-    const Eigen::Index before = k - way;
-    if (before < 0 || before > last || line.p(before) >= level) return line.s(k);
-    return line.s(before) +
-           (line.s(k) - line.s(before)) * (level - line.p(before)) / (line.p(k) - line.p(before));
+  Least before = dip;
+  for (Eigen::Index k = way > 0 ? 0 : last; k >= 0 && k <= last; k += way) {
+    if ((line.s(k) - dip.s) * way <= 0.0) continue;
+    if (line.value(k) >= level)
+      return before.s + (line.s(k) - before.s) * (level - before.value) / (line.value(k) - before.value);
+    before = {line.value(k), line.s(k)};
   }
   return line.s(way > 0 ? last : 0);
 }
@@ -158,12 +160,12 @@ constexpr double next_to_none = 1e-6;
 
 /// Local minima of a line's pressure, the least first; each with where the line pulls about it: no length where it does not.
 /// A line that carries no pressure over its length is no less in contact for that; see rod::buckling_margin.
-std::vector<ContactEvent> dips(const Piece& line, const DensePressure& dense, int link, bool begins_at_mid) {
+std::vector<ContactEvent> dips(const Piece& line, const Dense& dense, int link, bool begins_at_mid) {
   if (line.buckling) return {{Kind::pressure, link, far, line.s(0)}};
   const double begin = line.s(0), end = line.s(line.s.size() - 1);
   // Pressed evenly it lifts all at once, and a line that shrinks to nothing is not cut.
   Eigen::Index lowest = 0;
-  const Eigen::VectorXd& p = dense.p;
+  const Eigen::VectorXd& p = dense.value;
   const double least_sample = p.minCoeff(&lowest), range = p.maxCoeff() - least_sample;
   const bool even = range < 1e-6;
   std::vector<ContactEvent> out;
@@ -180,11 +182,13 @@ std::vector<ContactEvent> dips(const Piece& line, const DensePressure& dense, in
     event.passes = !even && end - begin > 10.0 * least_length;
     if (least.value < 0.0) {
       const double level = -next_to_none * least.value;
-      event.from = rises_above(dense, level, least.s, -1);
-      event.to = rises_above(dense, level, least.s, 1);
+      event.from = rises_above(dense, level, least, -1);
+      event.to = rises_above(dense, level, least, 1);
       if (begins_at_mid && event.from <= begin) event.from = begin - (event.to - begin);
     }
-    out.push_back(event);
+    const bool known =
+        !out.empty() && std::abs(out.back().s - event.s) <= after - before;  // by its neighbour
+    if (!known) out.push_back(event);
   }
   std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
   return out;
@@ -206,8 +210,7 @@ bool would_meet(const ContactEvent& a, const ContactEvent& b) {
 /// Positive as long as the line carries the gap that has opened in it: one less the gap's length over that which is carried.
 /// Two that would meet are carried until the pressure between them is gone: then they are one.
 /// @param dips  of the whole line, past the mid-point of a half chain too
-ContactEvent suction(const DensePressure& line, const ContactEvent& pressure,
-                     const std::vector<ContactEvent>& dips) {
+ContactEvent suction(const Dense& line, const ContactEvent& pressure, const std::vector<ContactEvent>& dips) {
   ContactEvent event = pressure;
   event.kind = Kind::suction;
   event.passes = false;
@@ -226,7 +229,7 @@ ContactEvent suction(const DensePressure& line, const ContactEvent& pressure,
     if (!apart || !would_meet(pressure, other)) continue;
     double between = 0.0;
     for (Eigen::Index k = 0; k < line.s.size(); ++k)
-      if ((line.s(k) - event.s) * (line.s(k) - other.s) < 0.0) between = std::max(between, line.p(k));
+      if ((line.s(k) - event.s) * (line.s(k) - other.s) < 0.0) between = std::max(between, line.value(k));
     event.value = std::min(event.value, between / pull);
   }
   if (event.value < 1.0) return event;
@@ -336,7 +339,7 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
     const bool at_mid = topology.half && i == 0;
     if (piece.stretch == Stretch::line) {
       const bool from_mid = at_mid && !topology.mid_touch;
-      const DensePressure dense = dense_pressure(piece);
+      const Dense dense = dense_samples(piece, piece.p);
       const std::vector<ContactEvent> pressures = dips(piece, dense, i, from_mid);
       const std::vector<ContactEvent> all = from_mid ? on_both_halves(pressures, piece.s(0)) : pressures;
       events.push_back(pressures.front());

@@ -254,14 +254,19 @@ std::shared_ptr<RodProblem> rebuild(const scene::Scene& scene, const std::string
 
 std::shared_ptr<RodProblem> reopen(const scene::Scene& scene, const Restart& restart,
                                    const std::vector<std::string>& keys) {
+  const auto refuse = [](const std::string& why) {
+    return std::runtime_error("the stored point cannot be restarted: " + why);
+  };
+  std::shared_ptr<RodProblem> problem;
   try {
-    auto problem = rebuild(scene, restart.chain, keys);
-    if (problem->chain().ambient_size() != restart.state.size())
-      throw std::runtime_error("its state has another size");
-    return problem;
-  } catch (const std::exception& error) {
-    throw std::runtime_error(std::string("the stored point cannot be restarted: ") + error.what());
+    problem = rebuild(scene, restart.chain, keys);
+  } catch (const nlohmann::json::exception& error) {  // damaged text
+    throw refuse(error.what());
+  } catch (const std::invalid_argument& error) {  // a chain that the kind of rod cannot have
+    throw refuse(error.what());
   }
+  if (problem->chain().ambient_size() != restart.state.size()) throw refuse("its state has another size");
+  return problem;
 }
 
 }  // namespace windlass::equilibrium

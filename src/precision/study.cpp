@@ -59,7 +59,10 @@ class Measurer {
     try {
       m.seconds = median(solve);
       evaluate(m);
-    } catch (const std::exception& error) {
+    } catch (const std::runtime_error& error) {  // a measurement that does not converge is a result
+      out_.failures.push_back(name + ": " + error.what());
+      return;
+    } catch (const std::domain_error& error) {
       out_.failures.push_back(name + ": " + error.what());
       return;
     }

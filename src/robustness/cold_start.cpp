@@ -93,7 +93,10 @@ Answer try_case(const Case& one) {
   } catch (const equilibrium::NoContact& error) {
     answer.outcome = Outcome::impossible;
     answer.cause = error.what();
-  } catch (const std::exception& error) {
+  } catch (const std::runtime_error& error) {
+    answer.cause = error.what();
+    answer.outcome = outcome_of(answer.cause);
+  } catch (const std::domain_error& error) {
     answer.cause = error.what();
     answer.outcome = outcome_of(answer.cause);
   }

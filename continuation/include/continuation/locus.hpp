@@ -66,9 +66,28 @@ class LocusWalker {
     double contraction = 0.0, precision = 0.0;
   };
 
+  // Bounds and events move the end of a step back from `whole`.
+  struct Step {
+    Vector base, row;  // arclength equation: row·(z − base) = s
+    double ds = 0.0, s_end = 0.0;
+    Solution whole, end;  // at ds and at s_end
+    End reason;           // to end the walk
+    std::string crossed;  // name of the event at the end
+
+    Vector guess(double s) const { return base + (s / ds) * (whole.z - base); }
+  };
+
   void start();
   void advance();
   bool advance_once(std::string& failure);
+  std::optional<Step> predict_and_correct(std::string& failure);
+  bool shorten_to_bounds(Step& step, std::string& failure);
+  const EventFunction* most_negative_event(const Step& step, const std::vector<EventFunction>& at_end) const;
+  bool shorten_to_first_event(Step& step, std::string& failure);
+  bool is_back_at_start(const Step& step) const;
+  bool queue_degenerate_point(const Step& step, const Matrix& jacobian_at_end, std::string& failure);
+  void finish_step(const Step& step, LocusPoint point);
+  std::optional<Solution> solve_at(const Step& step, double s, const Vector& guess, std::string& failure);
   std::optional<Solution> solve(const Vector& row, double value, Vector guess, Matrix jacobian,
                                 std::string& failure);
   bool rebase(std::shared_ptr<Problem> problem, const Vector& x, const Vector& p,
