@@ -156,6 +156,15 @@ std::optional<LineBegins> where_line_begins(RodProblem& problem, Vector x, Vecto
   return LineBegins{limit.value, std::abs(limit.value - limit.before)};
 }
 
+bool solve_in_place(RodProblem& problem, Vector& x, const Vector& p) {
+  const Borders none = borders(problem.size(), 0);
+  Iterate iterate = iterate_of(problem, x, p, none);
+  constexpr int most = 20;
+  const bool converged = solve_cut(problem, none, iterate, most).converged;
+  x = iterate.x;
+  return converged;
+}
+
 bool solve_at_length(RodProblem& problem, Vector& x, Vector& p, int link, double length) {
   const chain::Chain& chain = problem.chain();
   const Borders held = change_length(chain, link, length - chain.length(x, problem.loads(p), link));

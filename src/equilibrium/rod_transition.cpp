@@ -181,14 +181,23 @@ bool bring_to(Entry& entry, int link, double p) {
 std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, int depth, bool as_long,
                                   double p) {
   if (!settle_shape(*entry.problem, entry.x, entry.p, opened)) return std::nullopt;
+  // What only redraws a state leaves all else where it is at the same load; at another, gaps that are open already move far.
+  Entry here = entry;
+  here.p(0) = p;
+  const bool in_place = as_long && tried([&] { return solve_in_place(*here.problem, here.x, here.p); });
+  if (in_place) entry = here;
   const double length = length_of(entry, opened.front());
-  if (!solve_at_length(*entry.problem, entry.x, entry.p, opened.front(), length)) return std::nullopt;
+  const auto solve = [&] {
+    return in_place ? solve_in_place(*entry.problem, entry.x, entry.p)
+                    : solve_at_length(*entry.problem, entry.x, entry.p, opened.front(), length);
+  };
+  if (!in_place && !solve()) return std::nullopt;
   // What is admissible is judged on a mesh that is fine enough: events that only a finer one shows would be passed unseen.
   if (const std::optional<Vector> finer = entry.problem->adapt(entry.x, entry.p)) {
     entry.x = *finer;
-    if (!solve_at_length(*entry.problem, entry.x, entry.p, opened.front(), length)) return std::nullopt;
+    if (!solve()) return std::nullopt;
   }
-  if (as_long && !bring_to(entry, opened.front(), p)) return std::nullopt;
+  if (as_long && !in_place && !bring_to(entry, opened.front(), p)) return std::nullopt;
   const chain::Profile shape = entry.problem->profile(entry.x, entry.p);
   const Topology& topology = entry.problem->topology();
   const std::vector<ContactEvent> events = contact_events(shape, topology);

@@ -257,6 +257,23 @@ Successor mirrored(const Successor& next, bool right_changed, int links) {
   return out;
 }
 
+/// Where the gaps on both sides of a touch have closed at once, the lines that meet there are one.
+void join_lines(Successor& next) {
+  std::vector<Stretch>& stretches = next.topology.stretches;
+  for (std::size_t i = 0; i + 1 < stretches.size();) {
+    if (stretches[i] != Stretch::line || stretches[i + 1] != Stretch::line) {
+      ++i;
+      continue;
+    }
+    const auto at = static_cast<std::ptrdiff_t>(i) + 1;
+    stretches.erase(stretches.begin() + at);
+    next.source.erase(next.source.begin() + at);
+    next.s.erase(next.s.begin() + at);
+    if (!next.topology.on.empty()) next.topology.on.erase(next.topology.on.begin() + at);
+    for (int& link : next.opened) link -= link > static_cast<int>(i);
+  }
+}
+
 bool symmetric(const Topology& topology, const std::vector<double>& s) {
   constexpr double same = 1e-4;  // short gaps amplify rounding; what is built on it is solved and checked
   if (topology.half ||
@@ -282,6 +299,9 @@ std::vector<Successor> successors(const ContactEvent& event, const Profile& prof
     if (symmetric(topology, s) && !is_symmetric(next))
       out.push_back(mirrored(next, event.s > 0.0, static_cast<int>(profile.pieces.size())));
     out.push_back(std::move(next));
+  }
+  for (Successor& next : out) {
+    join_lines(next);
   }
   return out;
 }

@@ -49,6 +49,10 @@ Limit<Value> limit_at_zero(std::array<Value, levels> values) {
 /// @returns false where the matrix has no inverse or a length or tension leaves its domain
 bool settle_shape(RodProblem& problem, Vector& x, Vector& p, const std::vector<int>& opened);
 
+/// Solves for the state at p, with steps cut where an arc would lose more than half its length.
+/// @returns whether Newton converged; x is the solution then, and unspecified otherwise
+bool solve_in_place(RodProblem& problem, Vector& x, const Vector& p);
+
 /// Solves for the state in which the link has the given length, and for p(0) with it.
 /// @returns whether Newton converged; x and p are the solution then, and unspecified otherwise
 bool solve_at_length(RodProblem& problem, Vector& x, Vector& p, int link, double length);
