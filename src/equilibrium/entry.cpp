@@ -30,8 +30,7 @@ std::vector<double> inherited(const chain::Profile& shape, double begin, double 
 
 }  // namespace
 
-Entry draft(const RodProblem& from, const Successor& next, const chain::Profile& shape, const Vector& p,
-            bool redrawn) {
+Entry draft(const RodProblem& from, const Successor& next, const chain::Profile& shape, const Vector& p) {
   std::vector<chain::ArcMesh> meshes;
   for (int source : next.source)
     meshes.push_back(from.meshes().empty() ? chain::ArcMesh{} : from.meshes()[source]);
@@ -45,12 +44,7 @@ Entry draft(const RodProblem& from, const Successor& next, const chain::Profile&
     const double most = std::min(std::abs(length), 40.0);
     meshes[i].nodes = chain::uniform_mesh(std::max(elements, static_cast<int>(std::ceil(most))));
   }
-  // In a short arc every element more is a place more where rounding of the frames bends the rod.
-  for (int link : next.opened) {
-    constexpr double short_arc = 0.1;
-    meshes[link].nodes =
-        chain::uniform_mesh(next.s[link + 1] - next.s[link] < short_arc && redrawn ? 1 : elements);
-  }
+  for (int link : next.opened) meshes[link].nodes = chain::uniform_mesh(elements);
   const scene::Scene scene = from.scene_at(p);
   choose_tails(meshes, next.topology, from.rod(), loads_of(scene), next.s);
   auto problem = std::make_shared<RodProblem>(scene, from.spatial(), next.topology, meshes, from.keys());

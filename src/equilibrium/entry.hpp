@@ -14,8 +14,6 @@ struct Entry {
 };
 
 /// The successor's problem, with the old shape as guess.
-/// @param redrawn  its opened arcs are carried by a line as yet, and short
-Entry draft(const RodProblem& from, const Successor& next, const chain::Profile& shape, const Vector& p,
-            bool redrawn);
+Entry draft(const RodProblem& from, const Successor& next, const chain::Profile& shape, const Vector& p);
 
 }  // namespace windlass::equilibrium
