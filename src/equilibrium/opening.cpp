@@ -24,7 +24,8 @@ Borders borders(Eigen::Index size, Eigen::Index count) {
   return out;
 }
 
-/// One slack an edge stands in for its location condition, and its arclength does not move: as many unknowns as rows.
+/// One slack an edge stands in for its location condition, and its arclength does not move: as many unknowns as rows. Where
+/// sliding is held, the outermost contacts' mean place is given already: one of the two is left to that.
 Borders hold_edges(const chain::Chain& chain, const std::vector<int>& opened) {
   std::vector<int> edges;
   for (const int link : opened)
@@ -32,6 +33,9 @@ Borders hold_edges(const chain::Chain& chain, const std::vector<int>& opened) {
       if (chain.joint(joint).kind() == contact::JointKind::edge) edges.push_back(joint);
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  double shares = 0.0;
+  for (const int joint : edges) shares += chain.slide_share(joint);
+  if (chain.holds_slide() && shares == 1.0) edges.pop_back();
   Borders held = borders(chain.size(), static_cast<Eigen::Index>(edges.size()));
   for (std::size_t k = 0; k < edges.size(); ++k)
     held.c(chain.arclength_row(edges[k]), static_cast<Eigen::Index>(k)) = 1.0;
