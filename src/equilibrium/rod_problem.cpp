@@ -281,7 +281,8 @@ Vector RodProblem::fingerprint(const Vector& x, const Vector& p) {
   const Loads at = loads(p);
   const chain::Profile shape = profile(x, p);
   const double copies = topology_.half ? 2.0 : 1.0;  // of the whole rod, whichever chain it is on
-  double energy = 0.0, z_low = 0.0, z_high = 0.0, contacts = 0.0;
+  double energy = 0.0, contacts = 0.0;
+  double z_low = HUGE_VAL, z_high = -HUGE_VAL;  // the rod may be anywhere along the axis
   for (int i = 0; i < chain_->link_count(); ++i)
     energy += copies * chain_->link(i).arc->energy(chain_->place(x, at, i).point());
   for (const chain::Piece& piece : shape.pieces) {

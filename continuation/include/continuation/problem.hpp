@@ -28,7 +28,7 @@ struct Transition {
   Vector p;  ///< where `state` solves, if beside the event (where a new part has no size yet)
   double precision =
       -1.0;  ///< of p, if `state` at p is the event itself, located from beyond; negative: it is not. Where the branch
-             ///< ends: how far the end may be from the zero of the event's function
+      ///< ends: how far the end may be from the zero of the event's function
   std::optional<Located> located = {};
   bool silent = false;  ///< the same state, described otherwise: no point of the branch
 };
