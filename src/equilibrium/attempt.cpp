@@ -68,6 +68,10 @@ std::optional<Started> reach(const Started& from, const scene::Scene& scene, dou
   options.step = 0.02;
   options.step_max = 0.2;
   options.max_points = 3000;
+  // A branch that has turned and comes back past its start does not lead there.
+  const double way = 0.1 * std::abs(goal - from.p(0));
+  options.lower = std::min(goal, from.p(0)) - way;
+  options.upper = std::max(goal, from.p(0)) + way;
   std::shared_ptr<continuation::Problem> last = from.problem;
   Vector x = from.x;
   int iterations = from.newton_iterations;
