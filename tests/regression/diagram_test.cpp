@@ -2,6 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "support/csv.hpp"
@@ -71,6 +72,49 @@ BOOST_AUTO_TEST_CASE(long_coils_are_complete) {
       BOOST_TEST(std::min(std::abs(T - 0.1), std::abs(T - 5.0)) < 1e-12,
                  "branch " << branch << " ends at " << T);
   }
+}
+
+// A pressure that is nearly even pulls weakly on a wide stretch: between the turns of a long coil of low twisting stiffness it
+// has two dips, with less than 1e-5 between them, in several places at once.
+BOOST_AUTO_TEST_CASE(weak_dips_of_the_pressure_open_together) {
+  const TemporaryFolder folder;
+  draw(folder, "capstan-4pi",
+       {"load.angle=\"6 pi\"", "rod.length=" + std::to_string(6.0 * M_PI + 22.0), "ends.kind=clamped",
+        "rod.twist_ratio=0.2"});
+  std::map<std::string, double> ends;
+  for (const auto& row : rows_of(folder).rows) ends[row.at("branch")] = number(row, "T");
+  BOOST_TEST(ends.size() >= 4u);
+}
+
+// On a full chain both outermost contacts widen at once, while their mean place is held.
+BOOST_AUTO_TEST_CASE(both_outer_contacts_of_a_full_chain_widen_at_once) {
+  const TemporaryFolder folder;
+  draw(folder, "capstan-4pi",
+       {"load.angle=\"3 pi\"", "rod.length=" + std::to_string(3.0 * M_PI + 60.0), "ends.kind=clamped",
+        "rod.twist_ratio=5", "model.symmetry=none"});
+}
+
+// The helical branch of a short rod joins two branch points of the flat one: it is one branch, followed once, though its
+// other end has moved along the axis.
+BOOST_AUTO_TEST_CASE(a_branch_that_joins_two_points_of_another_is_found_once) {
+  const TemporaryFolder folder;
+  draw(folder, "capstan-4pi",
+       {"load.angle=\"1.3 pi\"", "rod.length=" + std::to_string(1.3 * M_PI + 8.0), "ends.kind=clamped",
+        "rod.twist_ratio=1", "model.symmetry=none"});
+  std::map<std::string, int> branches;
+  for (const auto& row : rows_of(folder).rows) ++branches[row.at("branch")];
+  BOOST_TEST(branches.size() == 2u);
+}
+
+// Unstable flat loops of a short rod grow until their two touches are at its ends: the branch ends there, and says so.
+BOOST_AUTO_TEST_CASE(a_contact_at_the_rods_end_ends_the_branch) {
+  const TemporaryFolder folder;
+  draw(folder, "capstan-4pi", {"load.angle=\"2.25 pi\"", "rod.length=" + std::to_string(2.25 * M_PI + 8.0)});
+  bool said = false;
+  for (const auto& special :
+       nlohmann::json::parse(std::ifstream(folder.path() / "run" / "special_points.json")))
+    said = said || special["after"] == "contact at the rod's end";
+  BOOST_TEST(said);
 }
 
 // Whatever mesh the tolerance asks for: the same branches and events, down to what rounding allows.

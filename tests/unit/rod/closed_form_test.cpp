@@ -191,6 +191,19 @@ BOOST_AUTO_TEST_CASE(a_short_tails_samples_lie_on_its_own_curve) {
     }
 }
 
+// Close to a free end the moment is what the pull exerts about it, T ℓ sin ψ (1 + O(ℓ²)): to all digits, however short the tail.
+BOOST_AUTO_TEST_CASE(the_moment_of_a_short_tail_keeps_its_digits) {
+  const Eigen::Vector2d n(1.7, 0.0);
+  const double theta = 0.6;
+  const TailArc tail(2, 1.3, true, TailArc::End::moment_free);
+  for (const double length : {1e-3, 1e-5, 1e-7}) {
+    EndsVector gradient;
+    tail.gradient(ArcPoint{&theta, &theta, nullptr, n.data(), length}, nullptr, gradient);
+    const double moment = n(0) * length * std::sin(theta);
+    BOOST_TEST(std::abs(std::abs(gradient(0)) - moment) < moment * (length * length + 1e-13));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_long_free_tail_is_the_infinite_one) {
   const double theta[1] = {1.9};
   const Eigen::Vector2d n(0.8, -0.4);
