@@ -229,6 +229,11 @@ VectorXd Chain::retract(const VectorXd& x, const VectorXd& dx) const {
       out(joint_at_[j] + joint.ambient()) += ds;
   }
   if (slide_at_ >= 0) out(slide_at_ + 1) += dx(numbering_.slide);
+  if (slides_) {
+    out(slide_at_) = 0.0;
+    for (int j = first_contact_; j <= last_contact_; ++j)
+      out(slide_at_) += slide_share(j) * out(joint_at_[j] + joints_[j]->ambient());
+  }
   for (int i = 0; i < link_count(); ++i) {
     const Arc& arc = *links_[i].arc;
     if (links_[i].pull == 0)
@@ -287,11 +292,11 @@ VectorXd Chain::residual(const VectorXd& x, const Loads& loads) const {
     if (numbering_.location[j] >= 0) f(numbering_.location[j]) = location(x, j).value;
   }
   if (slide_at_ < 0) return f;
-  f(numbering_.slide) = -x(slide_at_);
+  f(numbering_.slide) = slides_ ? x(slide_at_ + 1) : -x(slide_at_);
   for (int j = 0; j < joint_count(); ++j) {
     const double share = slide_share(j);
     if (share == 0.0) continue;
-    f(numbering_.slide) += share * arclength(x, loads, j);
+    if (!slides_) f(numbering_.slide) += share * arclength(x, loads, j);
     f(numbering_.coordinate[j]) += share * x(slide_at_ + 1);
   }
   return f;

@@ -130,10 +130,11 @@ void Chain::add_locations(const VectorXd& x, MatrixXd& dense) const {
       dense(row, numbering_.coordinate[j] + k) += by_w(kept_[j][k]);
   }
   if (slide_at_ < 0) return;
+  if (slides_) dense(numbering_.slide, numbering_.slide) += 1.0;
   for (int j = 0; j < joint_count(); ++j) {
     const double share = slide_share(j);
     if (share == 0.0) continue;
-    dense(numbering_.slide, numbering_.location[j]) += share;
+    if (!slides_) dense(numbering_.slide, numbering_.location[j]) += share;
     dense(numbering_.coordinate[j], numbering_.slide) += share;
   }
 }

@@ -35,7 +35,7 @@ Borders hold_edges(const chain::Chain& chain, const std::vector<int>& opened) {
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   double shares = 0.0;
   for (const int joint : edges) shares += chain.slide_share(joint);
-  if (chain.holds_slide() && shares == 1.0) edges.pop_back();
+  if (chain.holds_slide() && !chain.slides() && shares == 1.0) edges.pop_back();
   Borders held = borders(chain.size(), static_cast<Eigen::Index>(edges.size()));
   for (std::size_t k = 0; k < edges.size(); ++k)
     held.c(chain.arclength_row(edges[k]), static_cast<Eigen::Index>(k)) = 1.0;

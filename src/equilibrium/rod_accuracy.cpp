@@ -68,6 +68,7 @@ double RodProblem::error_estimate(const Vector& x, const Vector& p) {
     std::vector<chain::ArcMesh> finer = meshes_;
     for (auto& mesh : finer) mesh.stages += mesh.stages > 0;  // formulas stay
     finer_ = chain::build_chain(rod_, topology_, finer);
+    finer_->let_slide(slides_);
   }
   Vector fine = chain::transfer_state(*chain_, *finer_, x, at);
   const double before = target(*chain_, x, at);
@@ -187,6 +188,28 @@ std::optional<Vector> RodProblem::moved_to(std::vector<chain::ArcMesh> meshes, c
   return std::nullopt;
 }
 
+bool RodProblem::slides_freely(const Vector& x, const Vector& p) {
+  // What resists sliding, over the pull; below some 1e-6 rounding moves the rod along itself.
+  constexpr double resolved = 1e-5, lost = 1e-6;
+  if (topology_.half || rod_.strut || rod_.infinite || !chain_->holds_slide()) return false;
+  const Loads at = loads(p);
+  const int last = chain_->link_count() - 1;
+  const double tail = std::min(chain_->length(x, at, 0), chain_->length(x, at, last));
+  const double resistance = std::exp(-2.0 * std::sqrt(at.tension / rod_.bending_stiffness) * tail);
+  return resistance > (slides_ ? lost : resolved);
+}
+
+bool RodProblem::choose_sliding(const Vector& x, const Vector& p) {
+  const bool freely = slides_freely(x, p);
+  if (freely == slides_) return false;
+  slides_ = freely;
+  chain_->let_slide(freely);
+  sliding_reference_.reset();
+  finer_.reset();
+  factored_x_.resize(0);
+  return true;
+}
+
 bool RodProblem::settle(Vector& x, const Vector& p) {
   constexpr double nothing = 1e-10;  // of the pulls: below what a certificate asks
   constexpr int most = 12;
@@ -197,6 +220,10 @@ bool RodProblem::settle(Vector& x, const Vector& p) {
       throw std::domain_error(
           "a clamped end whose rod lies on an obstacle leaves its clamp: such states are not followed");
   if (std::abs(chain_->holding_force(x)) < nothing * tension) return false;
+  if (slides_) {
+    if (polish(x, p) < 0) throw std::domain_error("the rod slides along itself: nothing balances it here");
+    return true;
+  }
   const Eigen::MatrixXd none(chain_->size(), 0), corner(0, 0);
   for (int k = 0; k < most; ++k) {
     factor(x, p, none, none, corner);
@@ -225,6 +252,8 @@ double RodProblem::sliding_stiffness(const Vector& x, const Vector& p) {
 
 std::optional<Vector> RodProblem::adapt(const Vector& x, const Vector& p) {
   std::optional<Vector> moved = remeshed_where_needed(x, p);
+  // Other equations for the same state: its tangent is another, too.
+  if (choose_sliding(moved.value_or(x), p) && !moved) moved = x;
   if (moved) settle(*moved, p);
   return moved;
 }

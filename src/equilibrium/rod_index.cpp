@@ -12,8 +12,17 @@ int RodProblem::index(const Vector& x, const Vector& p) {
   const Loads at = loads(p);
   // Where a contact carries nothing, or an arc has no length left, the second variation is not that of a rod held by
   // these contacts: the count of the last sound point stands until the event is located.
-  if (index_ >= 0 && degenerate(x, at)) return index_;
-  return index_ = count(x, p, contact::Parity::even, index_);
+  if (index_ < 0 || !degenerate(x, at)) {
+    index_ = count(x, p, contact::Parity::even, index_);
+    // By Haynsworth's inertia formula, the directions of a rod that may slide; counted from where it was let to, which is no
+    // point of the branch.
+    if (chain_->slides()) {
+      const int off = chain_->sliding_stiffness(x, at) < 0.0;
+      if (!sliding_reference_) sliding_reference_ = off - sliding_off_;
+      sliding_off_ = off - *sliding_reference_;
+    }
+  }
+  return index_ + sliding_off_;
 }
 
 int RodProblem::breaking_index(const Vector& x, const Vector& p) {

@@ -88,6 +88,7 @@ void RodProblem::rebuild() {
   if (std::find(keys_.begin(), keys_.end(), "load.angle") != keys_.end()) rod_.pull_angle = NAN;
   base_ = loads_of(scene_);
   chain_ = chain::build_chain(rod_, topology_, meshes_);
+  chain_->let_slide(slides_);
   finer_.reset();
   factored_x_.resize(0);
   estimated_x_.resize(0);
@@ -253,10 +254,8 @@ double RodProblem::target(const chain::Chain& chain, const Vector& x, const Load
 
 std::shared_ptr<continuation::Problem> RodProblem::clone() const {
   auto copy = std::make_shared<RodProblem>(scene_, spatial_, topology_, meshes_, keys_);
-  copy->last_error_ = last_error_;
-  copy->nodal_floor_ = nodal_floor_;
-  copy->index_ = index_;
-  copy->breaking_index_ = breaking_index_;
+  copy->remember(memory());
+  if (!sliding_reference_) copy->sliding_reference_.reset();
   return copy;
 }
 

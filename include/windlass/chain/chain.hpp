@@ -45,7 +45,7 @@ class Chain {
   /// Rigid motions that cost nothing, and what holds them. At an equilibrium nothing pulls along them, so that a coordinate
   /// and its equation may be left out (translation, spin), or the motion's generator be added to the matrix (phase). In
   /// variations, whose eigenvalues must not prefer one side, the mean spin of the outermost contacts is held instead.
-  /// Sliding of the rod along itself costs T exp(−2√(T/B) L_tail) or so, hence next to nothing: the mean arclength of the
+  /// Sliding of the rod along itself costs T exp(−2√(T/B) L_tail) or so, next to nothing for long tails: the mean arclength of the
   /// outermost contacts is held, ½(s_first + s_last) = c, by forces λ/2 round the cylinder at these two. They are zero at
   /// an equilibrium; see RodProblem::settle.
   struct Gauges {
@@ -82,6 +82,10 @@ class Chain {
   bool holds_slide() const { return slide_at_ >= 0; }
   /// Place c of that gauge [ρ], and the force λ that it needs [EI/ρ²].
   double& slide_place(VectorXd& x) const { return x(slide_at_); }
+  /// Where the tails are short enough to resist, sliding is an unknown like others: λ = 0 is the equation in place of the
+  /// gauge, and c what comes of it. A load that turns where the rod would slide off is then a fold.
+  void let_slide(bool freely) { slides_ = freely && slide_at_ >= 0; }
+  bool slides() const { return slides_; }
   double slide_place(const VectorXd& x) const { return x(slide_at_); }
   double holding_force(const VectorXd& x) const { return holds_slide() ? x(slide_at_ + 1) : 0.0; }
   /// Length of a link: the difference of its ends' arclengths, without loss of digits where they are close.
@@ -286,7 +290,7 @@ class Chain {
       varied_;            ///< coordinates that vary at a joint, in equilibrium and in variations
   std::vector<int> odd_;  ///< of the first joint of a half chain in odd variations
   int first_contact_ = -1, last_contact_ = -1;  ///< the outermost contacts; without one the ends
-  bool in_contact_ = false;
+  bool in_contact_ = false, slides_ = false;
   Eigen::Index slide_at_ = -1;                                   ///< place of (c, λ) in the state
   std::vector<Eigen::Index> joint_at_, force_at_, interior_at_;  // offsets in the state
   std::vector<Eigen::Index> rest_at_;       ///< rests of (s, angle, height) in the state, of contacts only

@@ -114,13 +114,27 @@ class RodProblem final : public continuation::Problem {
   struct Memory {
     int index = -1, breaking_index = -1;
     double error = 0.0, nodal_floor = 0.0;
+    bool slides = false;
+    int sliding_off = 0, sliding_reference = 0;
   };
-  Memory memory() const { return {index_, breaking_index_, last_error_, nodal_floor_}; }
+  Memory memory() const {
+    return {index_,
+            breaking_index_,
+            last_error_,
+            nodal_floor_,
+            slides_,
+            sliding_off_,
+            sliding_reference_.value_or(0)};
+  }
   void remember(const Memory& memory) {
     index_ = memory.index;
     breaking_index_ = memory.breaking_index;
     last_error_ = memory.error;
     nodal_floor_ = memory.nodal_floor;
+    slides_ = memory.slides;
+    chain_->let_slide(slides_);
+    sliding_off_ = memory.sliding_off;
+    if (slides_) sliding_reference_ = memory.sliding_reference;
   }
 
   /// Quantity whose relative error is controlled: R_tot, or a strut's end force.
@@ -132,6 +146,10 @@ class RodProblem final : public continuation::Problem {
   /// Of eigenvalues whose sign rounding has made as many are counted as brings the count closest to `last`; −1: none.
   int count(const Vector& x, const Vector& p, contact::Parity parity, int last = -1);
   bool degenerate(const Vector& x, const contact::Loads& at) const;
+  /// Are the tails so short that they resist sliding by more than rounding?
+  bool slides_freely(const Vector& x, const Vector& p);
+  /// Lets the rod slide, or holds it, as its tails ask for. @returns whether its equations have changed
+  bool choose_sliding(const Vector& x, const Vector& p);
   /// Errors divided by what is allowed: of the target by the tolerance, of the nodes by the certificate's level.
   double excess(const Vector& x, const Vector& p);
   double nodal_goal() const;
@@ -161,10 +179,15 @@ class RodProblem final : public continuation::Problem {
     std::array<int, 2> rounded = {0, 0};     ///< more may be: eigenvalues whose sign is rounding's
   } counts_;
   int index_ = -1, breaking_index_ = -1;  ///< last counts at a sound point
-  double last_error_ = 0.0;               ///< relative, of the target
-  double nodal_error_ = 0.0;              ///< of frames and places at element ends
-  double nodal_floor_ = 0.0;              ///< what refinement did not reduce: rounding
-  Vector estimated_x_, estimated_p_;      ///< the state the two belong to
+  bool slides_ = false;                   ///< see Chain::let_slide
+  /// Negative directions that sliding adds to the count, and what that is less than 1 where the rod would slide off along itself:
+  /// it goes on where the rod is let to slide, or no longer.
+  int sliding_off_ = 0;
+  std::optional<int> sliding_reference_;
+  double last_error_ = 0.0;           ///< relative, of the target
+  double nodal_error_ = 0.0;          ///< of frames and places at element ends
+  double nodal_floor_ = 0.0;          ///< what refinement did not reduce: rounding
+  Vector estimated_x_, estimated_p_;  ///< the state the two belong to
 };
 
 }  // namespace windlass::equilibrium
