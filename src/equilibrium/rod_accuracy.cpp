@@ -189,8 +189,8 @@ std::optional<Vector> RodProblem::moved_to(std::vector<chain::ArcMesh> meshes, c
 }
 
 bool RodProblem::slides_freely(const Vector& x, const Vector& p) {
-  // What resists sliding, over the pull; below some 1e-6 rounding moves the rod along itself.
-  constexpr double resolved = 1e-5, lost = 1e-6;
+  // What resists sliding, over the pull; below some 1e-7 rounding moves the rod along itself.
+  constexpr double resolved = 1e-6, lost = 1e-7;
   if (topology_.half || rod_.strut || rod_.infinite || !chain_->holds_slide()) return false;
   const Loads at = loads(p);
   const int last = chain_->link_count() - 1;
