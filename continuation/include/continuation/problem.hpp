@@ -26,9 +26,9 @@ struct Transition {
   Vector state;                      ///< a guess for the new problem, to be corrected by the caller
   std::string before, after;         ///< descriptions of the two sides, e.g. contact topologies
   Vector p;  ///< where `state` solves, if beside the event (where a new part has no size yet)
-  double precision =
-      -1.0;  ///< of p, if `state` at p is the event itself, located from beyond; negative: it is not. Where the branch
-      ///< ends: how far the end may be from the zero of the event's function
+  /// Of p, if `state` at p is the event itself, located from beyond; negative: it is not. Where the branch ends: how
+  /// far the end may be from the zero of the event's function.
+  double precision = -1.0;
   std::optional<Located> located = {};
   bool silent = false;  ///< the same state, described otherwise: no point of the branch
 };
