@@ -176,6 +176,7 @@ void BranchRecorder::on_special_point(const Branch& branch, const Point& point) 
       mode = stability::mode_of(problem, point.x, point.p, point.branch_point->null.right.col(0),
                                 contact::Parity::even);
     } else {
+      mode.plane = "out", mode.parity = "odd";
       // A zero that was bracketed and not polished: the spectrum's mode nearest to zero, an even one first where several
       // vanish.
       try {
@@ -188,9 +189,7 @@ void BranchRecorder::on_special_point(const Branch& branch, const Point& point) 
           return rank(a) < rank(b);
         });
       } catch (const std::domain_error&) {  // no spectrum right at the zero
-        mode.plane = "out", mode.parity = "odd";
       } catch (const std::runtime_error&) {
-        mode.plane = "out", mode.parity = "odd";
       }
     }
     entry.mode = output::SpecialMode{mode.plane, mode.parity};

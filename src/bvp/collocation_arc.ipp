@@ -413,24 +413,31 @@ ArcSamples CollocationArc<Density>::sample(const ArcPoint& at) const {
     Eigen::MatrixXd directions(P, m), loads(A, m);
     for (int j = 0; j < m; ++j) {
       evaluate(table_, q, j, 1.0 / (h * at.length), value, slope);
-      density_.first(value, slope, n, gz, d);
+      if constexpr (A == D) {
+        density_.first(value, slope, n, gz, d);
+        loads.col(j) = gz.template head<A>();
+      } else {
+        d = density_.direction(value);
+      }
       directions.col(j) = d;
-      loads.col(j) = gz.template head<A>();
     }
     const Eigen::MatrixXd integral = h * at.length * table_.integral.transpose();
-    const Eigen::MatrixXd moved = directions * integral, gained = loads * integral;
+    const Eigen::MatrixXd moved = directions * integral;
+    // The momentum follows from what the element gains of it, more exactly than from the polynomial's slope.
+    Eigen::MatrixXd gained;
+    if constexpr (A == D) gained = loads * integral;
     for (int i = 0; i <= m; ++i) {
       const int k = e * m + i;
       out.sigma(k) = mesh_[e] + h * table_.lobatto(i);
       out.q.col(k) = q.col(i);
       out.displacement.col(k) = base + moved.col(i);
       slope = q * table_.end_slope.row(i).transpose() / (h * at.length);
-      density_.first(q.col(i), slope, n, gz, d);
-      // The momentum follows from what the element gains of it, more exactly than from the polynomial's slope.
-      if constexpr (A == D)
+      if constexpr (A == D) {
         out.momentum.col(k) = gained.col(i) - g.col(0);
-      else
+      } else {
+        density_.first(q.col(i), slope, n, gz, d);
         out.momentum.col(k) = density_.basis(q.col(i)).transpose() * gz.template tail<A>();
+      }
       out.slope.col(k) = density_.basis(q.col(i)).transpose() * slope;
     }
     out.momentum.col(e * m) = -density_.basis(q.col(0)).transpose() * g.col(0);

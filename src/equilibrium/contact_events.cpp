@@ -23,9 +23,7 @@ namespace {
 /// next to a contact may dip where the rod does not. Nothing where the rod has no least gap there but its contact.
 std::optional<Least> on_its_way(const Profile& profile, const Piece& piece, const obstacle::Surface& surface,
                                 double s) {
-  Eigen::Index node = 0;
-  const Eigen::Index last = piece.s.size() - 1;
-  while (node + piece.stride < last && s > piece.s(node + piece.stride)) node += piece.stride;
+  const Eigen::Index node = element_at(piece, s), last = piece.s.size() - 1;
   const rod::Section start{piece.r.col(node), piece.m.col(node), piece.q.col(node)};
   const Eigen::Vector3d n = piece.n.col(node);
   const double reach = piece.s(node + piece.stride) - piece.s(node);
@@ -92,8 +90,9 @@ bool hardly_apart(const Profile& profile, int link) {
   return touches == 2;
 }
 
-/// Length of a gap over that which its line carries, by the forces at its ends, less than the one when it became an arc; nothing
-/// where no line carries it.
+/// Length of a gap over that which its line carries, by the force F at its edges, less than the one when it became an arc:
+/// inside a line F = a h³/15, so that |p₀| w⁴ = 0.96 F h³; beside a touch F = bℓ²/20 and |p_e| w² = 4.32 F ℓ. Nothing where
+/// no line carries it.
 std::optional<double> beyond_carried(const Profile& profile, int link, bool begins_at_mid) {
   constexpr double shorter = 0.75;
   int edges = 0, touches = 0;

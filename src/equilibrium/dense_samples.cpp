@@ -9,16 +9,22 @@ namespace windlass::equilibrium {
 
 using chain::Piece;
 
+Eigen::Index element_at(const Piece& piece, double s) {
+  Eigen::Index first = 0;
+  const Eigen::Index last = piece.s.size() - 1;
+  while (first + piece.stride < last && s > piece.s(first + piece.stride)) first += piece.stride;
+  return first;
+}
+
 Least least_near(const Piece& piece, const Eigen::VectorXd& values, double s, double value, double lo,
                  double hi) {
   constexpr int bits = 26;  // half of a double: a minimum is flat
   Least least{value, s};
   const Eigen::Index last = piece.s.size() - 1;
   for (const int way : {-1, 1}) {
-    Eigen::Index first = 0;  // of the element on that side
-    while (first + piece.stride < last &&
-           (way > 0 ? s >= piece.s(first + piece.stride) : s > piece.s(first + piece.stride)))
-      first += piece.stride;
+    Eigen::Index first = element_at(piece, s);
+    const Eigen::Index next = first + piece.stride;  // of an element that meets it at s
+    if (way > 0 && next < last && s == piece.s(next)) first = next;
     const Eigen::VectorXd nodes = piece.s.segment(first, piece.stride + 1);
     const double begin = nodes(0), length = nodes(piece.stride) - begin, x = (s - begin) / length;
     const double from = way < 0 ? std::max(0.0, (lo - begin) / length) : x;

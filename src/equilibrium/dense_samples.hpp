@@ -14,6 +14,9 @@ struct Least {
 Least least_near(const chain::Piece& piece, const Eigen::VectorXd& values, double s, double value, double lo,
                  double hi);
 
+/// First sample of the element that s lies in; of two that meet there the first.
+Eigen::Index element_at(const chain::Piece& piece, double s);
+
 /// A quantity along an arc, dense enough that no dip and no rise of its polynomials is missed.
 struct Dense {
   Eigen::VectorXd s, value;

@@ -95,7 +95,8 @@ int straight_line(const RodProblem& lines, int link) {
   return lines.rod().obstacles[topology.obstacle(link == 0 ? 1 : link)].curvature() == 0.0 ? link : -1;
 }
 
-/// State of a touch at p(0), where branches cross and its equations are singular: extrapolated from the side that it is on. @returns whether all of them have a solution
+/// State of a touch at p(0), where branches cross and its equations are singular: extrapolated from the side that it is on.
+/// @returns whether there is a solution at all of the places that it is extrapolated from
 bool extrapolate(Entry& touch, double p) {
   constexpr int levels = 4;
   constexpr double nearest = 1e-4;  // of p: rounding is amplified by its inverse, the error is (8e-4)⁴

@@ -300,9 +300,7 @@ std::vector<Successor> successors(const ContactEvent& event, const Profile& prof
       out.push_back(mirrored(next, event.s > 0.0, static_cast<int>(profile.pieces.size())));
     out.push_back(std::move(next));
   }
-  for (Successor& next : out) {
-    join_lines(next);
-  }
+  for (Successor& next : out) join_lines(next);
   return out;
 }
 

@@ -56,15 +56,17 @@ class Measurer {
                                          stages ? fmt::format(" of {} stages", stages) : std::string());
     if (options_.progress) options_.progress(name);
     Measurement m{method, elements, stages, 0, 0.0, {}, {}};
+    const auto failed =
+        [&](const std::exception& error) {  // a measurement that does not converge is a result
+          out_.failures.push_back(name + ": " + error.what());
+        };
     try {
       m.seconds = median(solve);
       evaluate(m);
-    } catch (const std::runtime_error& error) {  // a measurement that does not converge is a result
-      out_.failures.push_back(name + ": " + error.what());
-      return;
+    } catch (const std::runtime_error& error) {
+      return failed(error);
     } catch (const std::domain_error& error) {
-      out_.failures.push_back(name + ": " + error.what());
-      return;
+      return failed(error);
     }
     m.error = errors(m.value, out_.reference);
     out_.measurements.push_back(m);

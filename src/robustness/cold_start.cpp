@@ -78,6 +78,10 @@ std::vector<Case> hard_cases(const scene::Scene& scene) {
 
 Answer try_case(const Case& one) {
   Answer answer;
+  const auto failed = [&](const std::exception& error) {
+    answer.cause = error.what();
+    answer.outcome = outcome_of(answer.cause);
+  };
   const auto begin = std::chrono::steady_clock::now();
   try {
     const equilibrium::Solution solution = equilibrium::solve(one.scene);
@@ -94,11 +98,9 @@ Answer try_case(const Case& one) {
     answer.outcome = Outcome::impossible;
     answer.cause = error.what();
   } catch (const std::runtime_error& error) {
-    answer.cause = error.what();
-    answer.outcome = outcome_of(answer.cause);
+    failed(error);
   } catch (const std::domain_error& error) {
-    answer.cause = error.what();
-    answer.outcome = outcome_of(answer.cause);
+    failed(error);
   }
   answer.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return answer;
