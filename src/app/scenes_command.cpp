@@ -55,6 +55,7 @@ void list_scenes(const CommonOptions& common) {
 std::string unit_text(const scene::Key& key) {
   if (key.kind == scene::ValueKind::text) return "text";
   if (key.kind == scene::ValueKind::integer) return "whole number";
+  if (key.kind == scene::ValueKind::truth) return "true or false";
   if (key.kind == scene::ValueKind::direction) return "three numbers";
   switch (key.dimension) {
     case scene::Dimension::angle:
@@ -80,7 +81,7 @@ void list_keys() {
   fmt::print("{:<26} {:<19} {:<13} {}\n", "key", "value", "default", "meaning");
   const auto print = [](const scene::Key& key) {
     fmt::print("{:<26} {:<19} {:<13} {}", key.name, unit_text(key), key.default_text(), key.help);
-    if (!key.choices.empty() || (key.kind != scene::ValueKind::text && key.range.text() != "finite"))
+    if (!key.choices.empty() || (key.kind != scene::ValueKind::text && key.kind != scene::ValueKind::truth && key.range.text() != "finite"))
       fmt::print("; {}", key.allowed());
     fmt::print("\n");
   };

@@ -19,8 +19,8 @@ namespace {
 /// An infinite tail is sampled this many decay lengths √(B/T) out: exp(−40) is below rounding.
 constexpr double tail_decay_lengths = 40.0;
 
-/// A contact's place on its obstacle is its first coordinate and in space its second; on the cylinder angle and height.
-constexpr int rests = 3, rest_of_s = 0, rest_of_angle = 1, rest_of_height = 2;
+/// Rests of a contact's arclength and of its places, the leading coordinates (Joint::places).
+constexpr int rest_of_s = 0, rest_of_place = 1;
 
 /// value + rest + change, rounded once; what is left becomes the new rest (Knuth's two-sum).
 void add(double value, double rest, double change, double& new_value, double& new_rest) {
@@ -41,10 +41,15 @@ const double* widened(const double* kept_step, const std::vector<int>& kept,
 }  // namespace
 
 Chain::Chain(std::vector<std::unique_ptr<Joint>> joints, std::vector<double> fixed_s, std::vector<Link> links,
-             const Gauges& gauges)
-    : joints_(std::move(joints)), fixed_s_(std::move(fixed_s)), links_(std::move(links)), gauges_(gauges) {
+             const Gauges& gauges, std::vector<Coupling> couplings)
+    : joints_(std::move(joints)),
+      fixed_s_(std::move(fixed_s)),
+      links_(std::move(links)),
+      gauges_(gauges),
+      couplings_(std::move(couplings)) {
   if (joints_.size() != links_.size() + 1 || fixed_s_.size() != joints_.size())
     throw std::invalid_argument("a chain has one joint more than arcs");
+  couple();
   keep_coordinates();
   numbering_ = number(Purpose::equilibrium);
   for (int j = 0; j < joint_count(); ++j) {
@@ -55,9 +60,10 @@ Chain::Chain(std::vector<std::unique_ptr<Joint>> joints, std::vector<double> fix
     slide_at_ = ambient_size_;
     ambient_size_ += 2;
   }
+  for (std::size_t k = 0; k < couplings_.size(); ++k) strand_at_.push_back(ambient_size_++);
   for (int j = 0; j < joint_count(); ++j) {
     rest_at_.push_back(is_contact(j) ? ambient_size_ : -1);
-    if (is_contact(j)) ambient_size_ += rests;
+    if (is_contact(j)) ambient_size_ += rest_of_place + std::max(2, joints_[j]->places());
   }
   for (const Link& link : links_) {
     force_at_.push_back(ambient_size_);
@@ -81,8 +87,7 @@ Chain::Chain(std::vector<std::unique_ptr<Joint>> joints, std::vector<double> fix
 
 void Chain::keep_coordinates() {
   for (int j = 0; j < joint_count(); ++j) {
-    const JointKind kind = joints_[j]->kind();
-    if (kind != JointKind::touch && kind != JointKind::edge) continue;
+    if (!on_obstacle(j)) continue;
     if (!in_contact_) first_contact_ = j;
     last_contact_ = j;
     in_contact_ = true;
@@ -137,6 +142,12 @@ Chain::Numbering Chain::number(Purpose purpose) const {
       n.constraints += link.arc->forces();
     }
   }
+  for (const Coupling& c : couplings_) {
+    // An odd variation moves a place and its image alike: to first order the two keep their distance.
+    const bool kept = purpose == Purpose::odd && c.with_itself();
+    n.strand.push_back(kept ? -1 : n.size++);
+    n.constraints += !kept;
+  }
   const auto hold = [&](bool gauge, Eigen::Index& row) {
     if (!gauge || !asymmetric) return;
     row = n.size++;
@@ -168,19 +179,21 @@ double Chain::length(const VectorXd& x, const Loads& loads, int link) const {
 contact::SmallVector Chain::rise(const VectorXd& x, const Placed& placed, int link) const {
   if (!is_contact(link) || !is_contact(link + 1) || joints_[link]->surface() != joints_[link + 1]->surface())
     return placed.right.x - placed.left.x;
-  const auto difference = [&](int coordinate, int rest) {
-    return coordinates(x, link + 1)[coordinate] - coordinates(x, link)[coordinate] +
-           (x(rest_at_[link + 1] + rest) - x(rest_at_[link] + rest));
+  const auto difference = [&](int k) {
+    return coordinates(x, link + 1)[k] - coordinates(x, link)[k] +
+           (x(rest_at_[link + 1] + rest_of_place + k) - x(rest_at_[link] + rest_of_place + k));
   };
-  const bool spatial = joints_[link]->height_coordinate() >= 0;
-  const Eigen::Vector2d step(difference(0, rest_of_angle), spatial ? difference(1, rest_of_height) : 0.0);
-  const Eigen::Index size = placed.left.x.size(), on_line = spatial ? 2 : 1;
+  const int places = joints_[link]->places();
+  if (!joints_[link]->surface()) return Eigen::Vector3d(difference(0), difference(1), difference(2));
+  const Eigen::Vector2d step(difference(0), places > 1 ? difference(1) : 0.0);
+  const Eigen::Index size = placed.left.x.size(), on_line = places;
   if (size == on_line) return step.head(size);  // on the unrolled surface
   const Joint& joint = *joints_[link];
   return joint.surface()->rise(joint.on_surface(coordinates(x, link)), step).head(size);
 }
 
 double Chain::touch_force(const VectorXd& x, const Loads& loads, int joint) const {
+  if (coupling_of_[joint] >= 0) return strand_force(x, coupling_of_[joint]);
   const VectorXd after = force(x, loads, joint);
   VectorXd before = after;
   if (joint > 0)
@@ -229,6 +242,7 @@ VectorXd Chain::retract(const VectorXd& x, const VectorXd& dx) const {
       out(joint_at_[j] + joint.ambient()) += ds;
   }
   if (slide_at_ >= 0) out(slide_at_ + 1) += dx(numbering_.slide);
+  for (std::size_t k = 0; k < couplings_.size(); ++k) out(strand_at_[k]) += dx(numbering_.strand[k]);
   if (slides_) {
     out(slide_at_) = 0.0;
     for (int j = first_contact_; j <= last_contact_; ++j)
@@ -255,8 +269,7 @@ void Chain::move_contact(const VectorXd& x, int joint, const double* step, doubl
   const auto move = [&](Eigen::Index place, int k, double change) {
     add(x(place), x(rest + k), change, out(place), out(rest + k));
   };
-  move(at, rest_of_angle, step[0]);
-  if (joints_[joint]->height_coordinate() >= 0) move(at + 1, rest_of_height, step[1]);
+  for (int k = 0; k < joints_[joint]->places(); ++k) move(at + k, rest_of_place + k, step[k]);
   if (locates(joint)) move(at + joints_[joint]->ambient(), rest_of_s, ds);
 }
 
@@ -289,8 +302,10 @@ VectorXd Chain::residual(const VectorXd& x, const Loads& loads) const {
   for (int j = 0; j < joint_count(); ++j) {
     const SmallVector load = joints_[j]->dead_load(coordinates(x, j), loads);
     for (std::size_t k = 0; k < kept_[j].size(); ++k) f(numbering_.coordinate[j] + k) += load(kept_[j][k]);
-    if (numbering_.location[j] >= 0) f(numbering_.location[j]) = location(x, j).value;
+    if (numbering_.location[j] >= 0 && coupling_of_[j] < 0)
+      f(numbering_.location[j]) = location(x, j).value;
   }
+  add_strand_forces(x, loads, f);
   if (slide_at_ < 0) return f;
   f(numbering_.slide) = slides_ ? x(slide_at_ + 1) : -x(slide_at_);
   for (int j = 0; j < joint_count(); ++j) {

@@ -124,7 +124,7 @@ void Chain::add_joint_terms(Purpose purpose, const Numbering& numbering, const V
 void Chain::add_locations(const VectorXd& x, MatrixXd& dense) const {
   for (int j = 0; j < joint_count(); ++j) {
     const Eigen::Index row = numbering_.location[j];
-    if (row < 0) continue;
+    if (row < 0 || coupling_of_[j] >= 0) continue;
     const SmallVector by_w = location(x, j).by_w;
     for (std::size_t k = 0; k < kept_[j].size(); ++k)
       dense(row, numbering_.coordinate[j] + k) += by_w(kept_[j][k]);
@@ -205,6 +205,7 @@ void Chain::factor(const VectorXd& x, const Loads& loads, const MatrixXd& b_aske
     add_joint_terms(Purpose::equilibrium, numbering_, x, loads, i, gradients_[i], dense);
   }
   add_locations(x, dense);
+  add_couplings(Purpose::equilibrium, numbering_, x, dense);
 
   border_b_ = b;
   border_c_ = c;

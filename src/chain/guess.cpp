@@ -116,6 +116,13 @@ VectorXd guess_state(const Chain& chain, const Topology& topology, const RodKind
     else if (arc.interior_nodes() > 0)
       adopt_interior(rod, nullptr, arc, profile, begin, length, no_twist, chain.interior(x, i));
   }
+  // The force between strands is the jump of the force in either.
+  for (std::size_t k = 0; k < chain.couplings().size(); ++k) {
+    const int joint = chain.couplings()[k].first;
+    const auto beside = [&](int link) { return profile.at(0.5 * (s[link] + s[link + 1])).n; };
+    const Vector3d jump = beside(joint - 1) - beside(joint);
+    chain.strand_force(x, static_cast<int>(k)) = jump.dot(chain.crossing(x, static_cast<int>(k)).direction);
+  }
   return x;
 }
 
@@ -124,6 +131,10 @@ Profile mirrored(const Profile& half) {
   const Eigen::Vector4d q0 = half.pieces.front().q.col(0), j(0, 0, 1, 0), i(0, 1, 0, 0);
   const double sign = rod::product(j, rod::product(q0, i)).dot(q0) < 0.0 ? -1.0 : 1.0;
   Profile out;
+  out.obstacles = half.obstacles;
+  out.material = half.material;
+  out.radius = half.radius;
+  out.unit_length = half.unit_length;
   for (auto piece = half.pieces.rbegin(); piece != half.pieces.rend(); ++piece) {
     Piece image = *piece;
     image.s = -piece->s.reverse();

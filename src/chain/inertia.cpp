@@ -70,6 +70,7 @@ MatrixXd Chain::variation_matrix(Purpose purpose, const Numbering& numbering, co
   for (int i = 0; i < link_count(); ++i)
     add_joint_terms(purpose, numbering, x, loads, i, gradients_[i], dense);
   add_gauges(numbering, purpose, x, dense);
+  add_couplings(purpose, numbering, x, dense);
   // A touch costs −½ F g'' δs² as it shifts: it is where the gap is least. One that carries nothing, as where it opens, costs
   // nothing, and its sign would be rounding's.
   constexpr double nothing = 1e-7;  // [EI/ρ²], [EI/ρ³]

@@ -222,6 +222,73 @@ double copies(const Topology& topology, int joint) {
   return topology.half && !(topology.mid_touch && joint == 0) ? 2.0 : 1.0;
 }
 
+Vector3d curvature_of(const RodKind& rod, const Piece& piece, Eigen::Index k) {
+  const Eigen::Matrix3d d = rod::directors(piece.q.col(k));
+  const Vector3d u = rod.natural + (d.transpose() * piece.m.col(k)).cwiseQuotient(rod.stiffness);
+  return u(1) * d.col(0) - u(0) * d.col(1);
+}
+
+/// Contacts with an obstacle.
+Contact obstacle_contact(const Chain& chain, const Topology& topology, const RodKind& rod, const VectorXd& x,
+                         int j, const std::vector<Piece>& pieces) {
+  Contact c;
+  const Joint& joint = chain.joint(j);
+  const obstacle::Chart here = joint.chart(chain.coordinates(x, j));
+  c.edge = joint.kind() == JointKind::edge;
+  c.obstacle = topology.obstacle(j);
+  c.angle = joint.surface()->turn(joint.on_surface(chain.coordinates(x, j)));
+  c.r = here.r;
+  c.normal = here.normal;
+  const Piece& after = pieces[j];
+  const Vector3d n_before = j > 0 ? Vector3d(pieces[j - 1].n.rightCols<1>()) : reflected(after.n.col(0));
+  c.force = contact_force(n_before, after.n.col(0), c.normal);
+  const Vector3d t = rod::directors(after.q.col(0)).col(2);
+  const Eigen::Vector2d along = here.tangents.transpose() * t;
+  c.gap_curvature = curvature_of(rod, after, 0).dot(c.normal) + along.dot(here.bend * along);
+  return c;
+}
+
+/// Contacts with another strand. Of the distance D(s₁, s₂) at its least: D₁₁ = 1/D + e·r₁″, D₂₂ = 1/D − e·r₂″,
+/// D₁₂ = −t₁·t₂/D.
+Contact strand_contact(const Chain& chain, const RodKind& rod, const VectorXd& x, int j, int coupling,
+                       const std::vector<Piece>& pieces) {
+  const Coupling& with = chain.couplings()[coupling];
+  const Chain::Crossing at = chain.crossing(x, coupling);
+  const Vector3d image = with.mirrored ? Vector3d(-1.0, 1.0, -1.0) : Vector3d::Ones();
+  Contact c;
+  c.obstacle = -1;
+  c.coupling = coupling;
+  c.r = chain.joint(j).centreline(chain.coordinates(x, j)).r;
+  c.angle = obstacle::Cylinder::angle(c.r);
+  c.normal = j == with.first ? at.direction : Vector3d(-image.cwiseProduct(at.direction));
+  c.force = chain.strand_force(x, coupling);
+  const Vector3d first = curvature_of(rod, pieces[with.first], 0),
+                 second = image.cwiseProduct(curvature_of(rod, pieces[with.second], 0));
+  Eigen::Matrix2d bend;
+  bend(0, 0) = 1.0 / at.distance + at.direction.dot(first);
+  bend(1, 1) = 1.0 / at.distance - at.direction.dot(second);
+  bend(0, 1) = bend(1, 0) = -at.first.t.dot(at.second.t) / at.distance;
+  c.gap_curvature = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(bend).eigenvalues()(0);
+  return c;
+}
+
+/// Strands have no obstacle to count turns round: beyond one the rod goes on where it is.
+void carry_turns(std::vector<Contact>& contacts, std::vector<Piece>& pieces) {
+  const auto turns = [](double from, double to) {
+    return 2.0 * M_PI * std::round((from - to) / (2.0 * M_PI));
+  };
+  const auto last = [](const Piece& piece) { return piece.angle(piece.angle.size() - 1); };
+  for (Contact& c : contacts) {
+    if (c.coupling < 0) continue;
+    Piece &before = pieces[c.joint - 1], &after = pieces[c.joint];
+    if (c.s > 0.0)
+      after.angle.array() += turns(last(before), after.angle(0));
+    else
+      before.angle.array() += turns(after.angle(0), last(before));
+    c.angle += turns(after.angle(0), c.angle);
+  }
+}
+
 }  // namespace
 
 Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod, const VectorXd& x,
@@ -230,48 +297,40 @@ Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod
   out.obstacles = rod.obstacles;
   out.material = rod.material();
   out.unit_length = rod.unit_length;
+  out.radius = loads.radius;
   for (int i = 0; i < chain.link_count(); ++i)
     out.pieces.push_back(sample_link(chain, rod, x, loads, i, topology));
   unroll(out.pieces);
   for (int j = 0; j < chain.joint_count(); ++j) {
     if (!chain.is_contact(j)) continue;
-    Contact c;
+    const auto found = std::find_if(chain.couplings().begin(), chain.couplings().end(),
+                                    [&](const Coupling& c) { return c.first == j || c.second == j; });
+    Contact c = found == chain.couplings().end()
+                    ? obstacle_contact(chain, topology, rod, x, j, out.pieces)
+                    : strand_contact(chain, rod, x, j, static_cast<int>(found - chain.couplings().begin()),
+                                     out.pieces);
     c.joint = j;
-    c.edge = chain.joint(j).kind() == JointKind::edge;
     c.s = chain.arclength(x, loads, j);
-    const Joint& joint = chain.joint(j);
-    const obstacle::Chart here = joint.chart(chain.coordinates(x, j));
-    c.obstacle = topology.obstacle(j);
-    c.angle = joint.surface()->turn(joint.on_surface(chain.coordinates(x, j)));
-    c.r = here.r;
-    c.normal = here.normal;
-    c.z = here.r(2);
-    const Piece& after = out.pieces[j];
-    const Vector3d n_before =
-        j > 0 ? Vector3d(out.pieces[j - 1].n.rightCols<1>()) : reflected(after.n.col(0));
-    c.force = contact_force(n_before, after.n.col(0), c.normal);
-    const Eigen::Matrix3d d = rod::directors(after.q.col(0));
-    const Vector3d u = rod.natural + (d.transpose() * after.m.col(0)).cwiseQuotient(rod.stiffness);
-    const Vector3d curvature = u(1) * d.col(0) - u(0) * d.col(1);
-    const Eigen::Vector2d along = here.tangents.transpose() * d.col(2);
-    c.gap_curvature = curvature.dot(c.normal) + along.dot(here.bend * along);
+    c.z = c.r(2);
     out.contacts.push_back(c);
   }
   // Free pieces take their turn count from a neighbouring contact.
   for (const Contact& c : out.contacts)
     for (const int i : {c.joint - 1, c.joint}) {
-      if (i < 0 || out.pieces[i].stretch == Stretch::line) continue;
+      if (i < 0 || c.coupling >= 0 || out.pieces[i].stretch == Stretch::line) continue;
       Piece& piece = out.pieces[i];
       const double here = i == c.joint ? piece.angle(0) : piece.angle(piece.angle.size() - 1);
       piece.angle.array() += 2.0 * M_PI * std::round((c.angle - here) / (2.0 * M_PI));
     }
+  carry_turns(out.contacts, out.pieces);
   return out;
 }
 
 double total_contact_force(const Profile& profile, const Topology& topology) {
   double sum = 0.0;
   for (const Piece& piece : profile.pieces) sum += piece.force * (topology.half ? 2.0 : 1.0);
-  for (const Contact& c : profile.contacts) sum += c.force * copies(topology, c.joint);
+  for (const Contact& c : profile.contacts)
+    if (c.coupling < 0) sum += c.force * copies(topology, c.joint);
   return sum;
 }
 
@@ -291,7 +350,7 @@ double total_contact_force(const Chain& chain, const Topology& topology, const R
       n_first.head(n.size()) = n;
       n_last = n_first;
     }
-    if (chain.is_contact(i))
+    if (chain.on_obstacle(i))
       sum += copies(topology, i) * contact_force(i > 0 ? n_before : reflected(n_first), n_first,
                                                  chain.joint(i).chart(chain.coordinates(x, i)).normal);
     n_before = n_last;

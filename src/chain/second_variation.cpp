@@ -134,6 +134,7 @@ Sparse Chain::jacobian(const VectorXd& x, const Loads& loads) const {
     add_joint_terms(Purpose::equilibrium, numbering_, x, loads, i, gradients_[i], dense);
   }
   add_locations(x, dense);
+  add_couplings(Purpose::equilibrium, numbering_, x, dense);
   std::vector<Triplet> entries;
   for (Eigen::Index i = 0; i < dense_size_; ++i)
     for (Eigen::Index j = 0; j < dense_size_; ++j)

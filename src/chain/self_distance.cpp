@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "windlass/chain/guess.hpp"
 #include "windlass/rod/quaternion.hpp"
 
 namespace windlass::chain {
@@ -24,13 +25,15 @@ struct Jet {
 /// The centreline element by element.
 class Curve {
  public:
-  Curve(const Profile& whole, const RodKind& rod) : whole_(whole), rod_(rod) {
+  explicit Curve(const Profile& whole) : whole_(whole), rod_(whole.material) {
     for (std::size_t i = 0; i < whole.pieces.size(); ++i) {
       const Piece& piece = whole.pieces[i];
+      begins.push_back(static_cast<int>(s.size()));
       const int last = static_cast<int>(piece.s.size()) - 1;
       for (int first = 0; first + piece.stride <= last; first += piece.stride)
         add_element(piece, static_cast<int>(i), first);
     }
+    begins.push_back(static_cast<int>(s.size()));
     const Piece& end = whole.pieces.back();
     const Eigen::Index last = end.s.size() - 1;
     s.push_back(end.s(last)), r.push_back(end.r.col(last)), t.push_back(tangent(end.q.col(last)));
@@ -53,6 +56,7 @@ class Curve {
     return quintic(knot(piece, k), knot(piece, k + 1), piece.s(k + 1) - piece.s(k), place - piece.s(k));
   }
 
+  std::vector<int> begins;     ///< first element of each piece, and their number
   std::vector<double> s;       ///< where elements begin, and the end
   std::vector<Vector3d> r, t;  ///< there
   std::vector<double> turned;  ///< angle by which the rod has turned up to there [rad]
@@ -92,7 +96,7 @@ class Curve {
     int piece, first;
   };
   const Profile& whole_;
-  const RodKind& rod_;
+  const rod::Material& rod_;
   std::vector<Where> where_;
 };
 
@@ -117,6 +121,11 @@ Square square(const Curve& curve, int e1, int e2, const Eigen::Vector2d& at) {
 class Search {
  public:
   Search(const Curve& curve, double least_separation) : curve_(curve), separation_(least_separation) {}
+  /// @param cutoff  only what is nearer counts
+  /// @param known   pairs of places that do not
+  Search(const Curve& curve, double least_separation, double cutoff,
+         const std::vector<Eigen::Vector2d>& known)
+      : curve_(curve), separation_(least_separation), cutoff_(cutoff), known_(known) {}
 
   /// Pairs within the elements a … b − 1.
   void within(int a, int b) {
@@ -128,6 +137,29 @@ class Search {
   }
 
   std::optional<SelfDistance> best() const { return best_; }
+
+  /// Pairs of a place in a … b − 1 with one in c … d − 1.
+  void between(int a, int b, int c, int d) {
+    if (curve_.turned[d] - curve_.turned[a] < least_turn || curve_.s[d] - curve_.s[a] < separation_) return;
+    const Ball first = ball(a, b), second = ball(c, d);
+    const Vector3d w = second.r - first.r;
+    const double distance = w.norm(), slack = first.radius + second.radius;
+    if (distance - slack >= cutoff_) return;
+    if (best_ && (distance - slack >= best_->distance || best_->distance <= coincident)) return;
+    if (distance > slack && (slopes(first, w / distance, slack / distance, a == 0) ||
+                             slopes(second, w / distance, slack / distance, d == curve_.size())))
+      return;
+    if (b == a + 1 && d == c + 1) return refine(a, c);
+    if (d == c + 1 || (b > a + 1 && first.radius >= second.radius)) {
+      const int m = (a + b) / 2;
+      between(m, b, c, d);
+      between(a, m, c, d);
+    } else {
+      const int m = (c + d) / 2;
+      between(a, b, c, m);
+      between(a, b, m, d);
+    }
+  }
 
  private:
   /// Half of what Fenchel asks for, so that the sum of chords, which is a little small, errs on the safe side; enough
@@ -147,28 +179,6 @@ class Search {
     }
     const int m = (a + b) / 2;
     return {curve_.r[m], curve_.t[m], std::max(curve_.s[m] - curve_.s[a], curve_.s[b] - curve_.s[m]), turn};
-  }
-
-  /// Pairs of a place in a … b − 1 with one in c … d − 1.
-  void between(int a, int b, int c, int d) {
-    if (curve_.turned[d] - curve_.turned[a] < least_turn || curve_.s[d] - curve_.s[a] < separation_) return;
-    const Ball first = ball(a, b), second = ball(c, d);
-    const Vector3d w = second.r - first.r;
-    const double distance = w.norm(), slack = first.radius + second.radius;
-    if (best_ && (distance - slack >= best_->distance || best_->distance <= coincident)) return;
-    if (distance > slack && (slopes(first, w / distance, slack / distance, a == 0) ||
-                             slopes(second, w / distance, slack / distance, d == curve_.size())))
-      return;
-    if (b == a + 1 && d == c + 1) return refine(a, c);
-    if (d == c + 1 || (b > a + 1 && first.radius >= second.radius)) {
-      const int m = (a + b) / 2;
-      between(m, b, c, d);
-      between(a, m, c, d);
-    } else {
-      const int m = (c + d) / 2;
-      between(a, b, c, m);
-      between(a, b, m, d);
-    }
   }
 
   /// Does the distance change monotonically along the stretch, and not end in a minimum at the end of the rod? Chords
@@ -240,21 +250,84 @@ class Search {
     // Where two neighbouring elements meet a place is at no distance from itself.
     const double itself = 1e-9 * (1.0 + f.at.cwiseAbs().maxCoeff());
     if (f.at(1) - f.at(0) <= std::max(separation_, itself) || (best_ && distance >= best_->distance)) return;
+    for (const Eigen::Vector2d& touch : known_)
+      if ((f.at - touch).cwiseAbs().maxCoeff() < same_touch) return;
     best_ = SelfDistance{distance, f.at(0), f.at(1)};
   }
 
   static constexpr double coincident = 1e-12;  ///< nothing is nearer [ρ]
+  static constexpr double same_touch = 1e-2;   ///< two touches so close are told apart by their curvature [ρ]
 
   const Curve& curve_;
-  double separation_;
+  double separation_, cutoff_ = HUGE_VAL;
+  std::vector<Eigen::Vector2d> known_;
   std::optional<SelfDistance> best_;
 };
 
 }  // namespace
 
-std::optional<SelfDistance> self_distance(const Profile& whole, const RodKind& rod, double radius) {
+namespace {
+
+/// Places of the touches between strands, of the whole rod: first place < second place.
+std::vector<Eigen::Vector2d> touches(const Profile& profile, const Topology& topology) {
+  std::vector<Eigen::Vector2d> out;
+  const auto add = [&](double a, double b) { out.emplace_back(std::min(a, b), std::max(a, b)); };
+  const auto place = [&](int joint) {
+    return std::find_if(profile.contacts.begin(), profile.contacts.end(),
+                        [&](const Contact& c) { return c.joint == joint; })
+        ->s;
+  };
+  for (const Coupling& c : topology.couplings()) {
+    const double a = place(c.first), b = c.mirrored ? -place(c.second) : place(c.second);
+    add(a, b);
+    if (topology.half) add(-a, -b);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Approach> approaches(const Profile& profile, const Topology& topology) {
+  std::vector<Approach> out;
+  if (profile.radius == 0.0) return out;
+  Profile image;
+  if (topology.half) image = chain::mirrored(profile);
+  const Profile& whole = topology.half ? image : profile;
+  const Curve curve(whole);
+  const std::vector<Eigen::Vector2d> known = touches(profile, topology);
+  const double separation = M_PI * profile.radius;
+  constexpr double as_far_again = 2.0;  // nobody asks how far strands are that are this far
+  const double cutoff = 2.0 * profile.radius * (1.0 + as_far_again);
+  const int links = static_cast<int>(profile.pieces.size()), first = topology.half ? links : 0;
+  const auto least = [&](int i, int j) {  // of two pieces of the whole rod, i <= j
+    Search search(curve, separation, cutoff, known);
+    if (i == j)
+      search.within(curve.begins[i], curve.begins[i + 1]);
+    else
+      search.between(curve.begins[i], curve.begins[i + 1], curve.begins[j], curve.begins[j + 1]);
+    return search.best();
+  };
+  const auto add = [&](int i, int j, bool mirrored) {
+    const auto found = mirrored ? least(links - 1 - j, first + i) : least(first + j, first + i);
+    Approach near{i, j, mirrored, cutoff};
+    if (found) {
+      near.distance = found->distance;
+      near.s = found->s2;
+      near.s_other = mirrored ? -found->s1 : found->s1;
+    }
+    out.push_back(near);
+  };
+  for (int i = 0; i < links; ++i)
+    for (int j = 0; j <= i; ++j) {
+      add(i, j, false);
+      if (topology.half) add(i, j, true);
+    }
+  return out;
+}
+
+std::optional<SelfDistance> self_distance(const Profile& whole, double radius) {
   if (whole.pieces.empty() || whole.pieces.front().s.size() < 2) return std::nullopt;
-  const Curve curve(whole, rod);
+  const Curve curve(whole);
   Search search(curve, M_PI * radius);
   search.within(0, curve.size());
   return search.best();

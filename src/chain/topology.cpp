@@ -65,10 +65,12 @@ std::unique_ptr<Joint> end_joint(const RodKind& rod, const Topology& t, const Ar
 }
 
 /// Joint between two stretches, the first on the left, on an obstacle.
-std::unique_ptr<Joint> contact_joint(const RodKind& rod, Stretch left, Stretch right, int obstacle) {
+std::unique_ptr<Joint> contact_joint(const RodKind& rod, Stretch left, Stretch right, Seat seat) {
+  const int obstacle = seat.obstacle;
   if (left == Stretch::line && right == Stretch::line)
     throw std::invalid_argument("two line contacts cannot meet at a joint");
   if (left != Stretch::line && right != Stretch::line) {
+    if (seat.strand != 0) return std::make_unique<spatial::Strand>();
     if (rod.spatial) return std::make_unique<spatial::Touch>(rod.obstacles.pointer(obstacle));
     return std::make_unique<planar::Touch>();
   }
@@ -120,7 +122,7 @@ bool contacts_let_slide_along_x(const RodKind& rod, const Topology& t) {
   if (!t.contact()) return true;
   const int count = static_cast<int>(t.stretches.size());
   for (int j = t.half && t.stretches.front() != Stretch::line && !t.mid_touch ? 1 : !t.half; j < count; ++j)
-    if (!rod.obstacles[t.obstacle(j)].endless_along_x()) return false;
+    if (t.seat(j).strand == 0 && !rod.obstacles[t.obstacle(j)].endless_along_x()) return false;
   return true;
 }
 
@@ -156,7 +158,39 @@ Topology unfolded(const Topology& t) {
   if (t.on.empty()) return whole;
   whole.on.assign(t.on.rbegin(), t.on.rend() - 1);
   whole.on.insert(whole.on.end(), t.on.begin() + skipped, t.on.end());
+  // Each contact between strands has an image; the two of a mirrored pair change partners, the one with its own image has
+  // none. Of joints from −L/2 the left half's come first.
+  const int ids = static_cast<int>(whole.on.size());
+  for (const Coupling& c : t.couplings()) {
+    if (c.with_itself()) continue;
+    const int strand = std::abs(t.on[c.first].strand);
+    const auto right = [&](int joint) { return ids - static_cast<int>(t.on.size()) + joint; };
+    const auto left = [&](int joint) { return ids - 1 - right(joint); };
+    const int other = strand + ids;  // the image's number
+    whole.on[right(c.first)].strand = strand;
+    whole.on[c.mirrored ? left(c.second) : right(c.second)].strand = strand;
+    whole.on[left(c.first)].strand = other;
+    whole.on[c.mirrored ? right(c.second) : left(c.second)].strand = other;
+  }
   return whole;
+}
+
+std::vector<Coupling> Topology::couplings() const {
+  std::vector<Coupling> out;
+  const int joints = static_cast<int>(on.size());
+  for (int j = 0; j < joints; ++j) {
+    const int strand = on[j].strand;
+    if (strand == 0) continue;
+    const auto partner = std::find_if(on.begin(), on.end(), [&](const Seat& seat) {
+      return &seat != &on[j] && std::abs(seat.strand) == std::abs(strand);
+    });
+    if (partner == on.end()) {
+      out.push_back({j, j, true});
+    } else if (const int k = static_cast<int>(partner - on.begin()); k > j) {
+      out.push_back({j, k, partner->strand != strand});
+    }
+  }
+  return out;
 }
 
 std::string Topology::text() const {
@@ -164,6 +198,7 @@ std::string Topology::text() const {
   const std::vector<Stretch>& all = whole.stretches;
   const auto named = [&](const char* contact, std::size_t joint) {
     const int obstacle = whole.obstacle(static_cast<int>(joint));
+    if (whole.seat(static_cast<int>(joint)).strand != 0) return std::string("cross");
     return obstacle == 0 ? std::string(contact) : std::string(contact) + ":" + std::to_string(obstacle + 1);
   };
   std::string text;
@@ -178,8 +213,8 @@ std::string Topology::text() const {
 bool Topology::operator==(const Topology& other) const {
   if (stretches != other.stretches || half != other.half || mid_touch != other.mid_touch) return false;
   for (int j = 0; j <= static_cast<int>(stretches.size()); ++j)
-    if (obstacle(j) != other.obstacle(j)) return false;
-  return true;
+    if (seat(j).obstacle != other.seat(j).obstacle) return false;
+  return couplings() == other.couplings();
 }
 
 std::unique_ptr<Chain> build_chain(const RodKind& rod, const Topology& t,
@@ -199,7 +234,7 @@ std::unique_ptr<Chain> build_chain(const RodKind& rod, const Topology& t,
       joints.push_back(t.half ? symmetric_joint(rod, t) : end_joint(rod, t, mesh_of(0), Side::right));
     else
       joints.push_back(i == count ? end_joint(rod, t, mesh_of(count - 1), Side::left)
-                                  : contact_joint(rod, all[i - 1], all[i], t.obstacle(i)));
+                                  : contact_joint(rod, all[i - 1], all[i], t.seat(i)));
     if (i == count) break;
     const bool leftward = i == 0 && !t.half;
     Link link;
@@ -208,7 +243,7 @@ std::unique_ptr<Chain> build_chain(const RodKind& rod, const Topology& t,
     if (all[i] == Stretch::tail && !rod.strut) link.pull = leftward ? -1 : 1;
     links.push_back(std::move(link));
   }
-  auto chain = std::make_unique<Chain>(std::move(joints), std::move(fixed), std::move(links), gauges(rod, t));
+  auto chain = std::make_unique<Chain>(std::move(joints), std::move(fixed), std::move(links), gauges(rod, t), t.couplings());
   if (const auto parity = neutral_turn(rod, t)) chain->expect_neutral_turn(*parity);
   return chain;
 }

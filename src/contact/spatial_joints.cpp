@@ -173,6 +173,17 @@ SmallVector FreeSection::turned(const double* w, double turn, double spin) const
   return out;
 }
 
+Centreline Strand::centreline(const double* w) const {
+  const Eigen::Matrix3d d = rod::directors(frame_at(w + 3));
+  Centreline line{Eigen::Map<const Vector3d>(w), d.col(2), {}, {}};
+  line.dr.setZero(3, tangent());
+  line.dr.leftCols<3>().setIdentity();
+  line.dt.setZero(3, tangent());
+  line.dt.col(3) = -2.0 * d.col(1);  // frames' increments are half the angle
+  line.dt.col(4) = 2.0 * d.col(0);
+  return line;
+}
+
 Attachment End::attach(Side, const double* w, const Loads& loads) const {
   Attachment at = sized(4, 3, 3, tangent());
   if (clamped_) {

@@ -5,6 +5,7 @@
 
 #include "dense_samples.hpp"
 #include "line_pressure.hpp"
+#include "windlass/chain/self_distance.hpp"
 #include "windlass/rod/free_flow.hpp"
 
 namespace windlass::equilibrium {
@@ -140,7 +141,7 @@ ContactEvent length_event(const Profile& profile, int i, bool begins_at_mid) {
 
 /// Curvature at which a touch gives way, see `least_curvature`.
 double least_curvature_at(const Profile& profile, const Contact& c) {
-  if (profile.obstacles[c.obstacle].curvature() != 0.0) return 0.0;
+  if (c.coupling >= 0 || profile.obstacles[c.obstacle].curvature() != 0.0) return 0.0;
   const Piece& beside =
       profile.pieces[c.joint < static_cast<int>(profile.pieces.size()) ? c.joint : c.joint - 1];
   return least_curvature * std::max(c.force, 0.0) / std::sqrt(beside.n.col(0).norm());
@@ -149,9 +150,10 @@ double least_curvature_at(const Profile& profile, const Contact& c) {
 }  // namespace
 
 std::string ContactEvent::name() const {
-  static const char* const words[] = {"pressure",  "suction", "length",  "force",
-                                      "curvature", "graze",   "buckling"};
+  static const char* const words[] = {"pressure",  "suction", "length",   "force",
+                                      "curvature", "graze",   "buckling", "approach"};
   const std::string name = std::string(words[static_cast<int>(kind)]) + " " + std::to_string(place);
+  if (kind == Kind::approach) return name + " to " + std::to_string(other) + (mirrored ? "'" : "");
   return obstacle == 0 ? name : name + ":" + std::to_string(obstacle + 1);
 }
 
@@ -172,10 +174,22 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
       for (int o = 0; o < profile.obstacles.size(); ++o)
         events.push_back(graze(profile, o, i, at_mid && !topology.mid_touch));
   }
+  std::vector<int> seen;  // couplings: one event for the two joints
   for (const Contact& c : profile.contacts) {
+    if (c.coupling >= 0) {
+      if (std::find(seen.begin(), seen.end(), c.coupling) != seen.end()) continue;
+      seen.push_back(c.coupling);
+    }
     events.push_back({Kind::force, c.joint, c.force, c.s});
     if (!c.edge)
       events.push_back({Kind::curvature, c.joint, c.gap_curvature - least_curvature_at(profile, c), c.s});
+  }
+  for (const chain::Approach& near : chain::approaches(profile, topology)) {
+    ContactEvent event{Kind::approach, near.link, near.distance - 2.0 * profile.radius, near.s};
+    event.other = near.other;
+    event.mirrored = near.mirrored;
+    event.s_other = near.s_other;
+    events.push_back(event);
   }
   return events;
 }

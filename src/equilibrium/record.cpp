@@ -179,7 +179,7 @@ Solution record(RodProblem& problem, const Vector& x, const Vector& p) {
   const chain::Profile image = topology.half ? chain::mirrored(shape) : chain::Profile();
   const chain::Profile& whole = topology.half ? image : shape;
   assemble(shape, whole, topology, problem.rod().infinite, out);
-  if (const auto self = chain::self_distance(whole, problem.rod(), scene.rod_radius)) {
+  if (const auto self = chain::self_distance(whole, scene.rod_radius)) {
     out.self_distance = self->distance;
     out.self_s = {self->s1, self->s2};
   }
@@ -222,7 +222,10 @@ std::string chain_of(const RodProblem& problem) {
   chain["units"] = {{"length", units.length}, {"bending_stiffness", units.bending_stiffness}};
   for (const Stretch stretch : problem.topology().stretches)
     chain["stretches"].push_back(static_cast<int>(stretch));
-  if (!problem.topology().on.empty()) chain["on"] = problem.topology().on;
+  for (const chain::Seat& seat : problem.topology().on) {
+    chain["on"].push_back(seat.obstacle);
+    chain["strands"].push_back(seat.strand);
+  }
   for (const auto& mesh : problem.meshes())
     chain["meshes"].push_back({{"nodes", mesh.nodes}, {"stages", mesh.stages}});
   return chain.dump();
@@ -244,7 +247,9 @@ std::shared_ptr<RodProblem> rebuild(const scene::Scene& scene, const std::string
   topology.half = chain.at("half");
   topology.mid_touch = chain.at("mid_touch");
   for (int k : chain.at("stretches")) topology.stretches.push_back(static_cast<Stretch>(k));
-  topology.on = chain.value("on", std::vector<int>());
+  const auto on = chain.value("on", std::vector<int>()), strands = chain.value("strands", std::vector<int>());
+  for (std::size_t j = 0; j < on.size(); ++j)
+    topology.on.push_back({on[j], j < strands.size() ? strands[j] : 0});
   std::vector<chain::ArcMesh> meshes;
   for (const auto& mesh : chain.at("meshes"))
     meshes.push_back({mesh.at("nodes").get<std::vector<double>>(), mesh.at("stages").get<int>()});

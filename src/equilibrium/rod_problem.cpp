@@ -27,6 +27,7 @@ double Loads::*field_of(const std::string& key) {
   if (key == "load.thrust") return &Loads::thrust;
   if (key == "ends.shortening") return &Loads::shortening;
   if (key == "ends.twist") return &Loads::twist;
+  if (key == "rod.radius") return &Loads::radius;
   return nullptr;
 }
 
@@ -40,6 +41,7 @@ Loads loads_of(const scene::Scene& scene) {
   loads.thrust = scene.load.thrust.value_or(0.0);
   loads.shortening = scene.ends.shortening.value_or(0.0);
   loads.twist = scene.ends.twist;
+  loads.radius = scene.strand_radius();
   return loads;
 }
 

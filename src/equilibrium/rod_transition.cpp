@@ -278,7 +278,7 @@ std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const 
 
 std::vector<continuation::EventFunction> RodProblem::events(const Vector& x, const Vector& p) {
   std::vector<continuation::EventFunction> out;
-  if (rod_.obstacles.size() == 0) return out;
+  if (rod_.obstacles.size() == 0 && scene_.strand_radius() == 0.0) return out;
   for (const ContactEvent& event : contact_events(profile(x, p), topology_))
     out.push_back({event.name(), event.value, event.imminent, event.passes});
   return out;

@@ -48,6 +48,11 @@ std::optional<Started> by_continuation(const scene::Scene& scene, bool spatial, 
 
 Started cold_start(const scene::Scene& asked, bool spatial, bool half, const std::vector<std::string>& keys) {
   const scene::Scene scene = scene::natural(asked);
+  if (spatial && scene.has_cylinder && scene.strand_radius() > 0.0) {
+    scene::Scene thin = scene;
+    thin.self_contact = false;
+    return thicken(cold_start(thin, true, true, keys), scene, half, keys);
+  }
   if (!scene.has_cylinder)
     return scene.ends.shortening ? buckled_strut(scene, half, keys) : straight_strut(scene, half, keys);
   Loads loads = loads_of(scene);

@@ -8,7 +8,7 @@ using chain::Stretch;
 
 Strip::Strip(const chain::Topology& topology, const std::vector<double>& places)
     : s(places), half(topology.half), mid_touch(topology.mid_touch) {
-  for (int j = 0; j < static_cast<int>(s.size()); ++j) on.push_back(topology.obstacle(j));
+  for (int j = 0; j < static_cast<int>(s.size()); ++j) on.push_back(topology.seat(j));
   for (const Stretch kind : topology.stretches) parts.push_back({kind, static_cast<int>(parts.size())});
 }
 
@@ -17,10 +17,10 @@ Successor Strip::successor() const {
   out.s = s;
   out.topology.half = half;
   out.topology.mid_touch = mid_touch;
-  std::vector<int> contacts = on;  // the ends, and the section where a half chain begins, lie on none
-  if (!mid_touch && !(half && parts.front().kind == Stretch::line)) contacts.front() = 0;
-  contacts.back() = 0;
-  if (std::any_of(contacts.begin(), contacts.end(), [](int obstacle) { return obstacle != 0; }))
+  std::vector<chain::Seat> contacts = on;  // the ends, and the section where a half chain begins, lie on none
+  if (!mid_touch && !(half && parts.front().kind == Stretch::line)) contacts.front() = {};
+  contacts.back() = {};
+  if (std::any_of(contacts.begin(), contacts.end(), [](const chain::Seat& seat) { return seat != chain::Seat{}; }))
     out.topology.on = contacts;
   for (const Part& part : parts) {
     if (part.fresh) out.opened.push_back(static_cast<int>(out.topology.stretches.size()));
@@ -44,12 +44,12 @@ void Strip::merge(int first, int last, Stretch kind) {
     on[0] = on[1];  // a section of it is there now
 }
 
-void Strip::split(int i, double at, Stretch left, Stretch right, std::optional<int> obstacle) {
+void Strip::split(int i, double at, Stretch left, Stretch right, std::optional<chain::Seat> contact) {
   const Part old = parts[i];
   parts[i].kind = left;
   parts.insert(parts.begin() + i + 1, {right, old.source});
   s.insert(s.begin() + i + 1, at);
-  on.insert(on.begin() + i + 1, obstacle.value_or(on[i]));
+  on.insert(on.begin() + i + 1, contact.value_or(chain::Seat{on[i].obstacle}));
 }
 
 bool Strip::collapse(int i) {

@@ -16,7 +16,7 @@ struct Strip {
   };
   std::vector<Part> parts;
   std::vector<double> s;                ///< bounds of the parts
-  std::vector<int> on;                  ///< obstacles that the bounds lie on, see chain::Topology
+  std::vector<chain::Seat> on;          ///< what the bounds touch, see chain::Topology
   bool half = true, mid_touch = false;  ///< see chain::Topology
 
   Strip(const chain::Topology& topology, const std::vector<double>& places);
@@ -29,9 +29,9 @@ struct Strip {
   void erase(int i, int bound);
   /// Replaces parts [first, last] by one.
   void merge(int first, int last, chain::Stretch kind);
-  /// Splits part i at s into (i, left) and (i + 1, right), by a contact on the obstacle given, else on that of the part's
+  /// Splits part i at s into (i, left) and (i + 1, right), by a contact with what is given, else on the obstacle of the part's
   /// first bound.
-  void split(int i, double at, chain::Stretch left, chain::Stretch right, std::optional<int> obstacle = {});
+  void split(int i, double at, chain::Stretch left, chain::Stretch right, std::optional<chain::Seat> on = {});
   /// Takes out part i, which has no length left: what met at its two ends meets now. @returns false for an end of the rod
   bool collapse(int i);
 

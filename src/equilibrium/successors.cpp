@@ -141,7 +141,7 @@ std::vector<Successor> after_curvature(const ContactEvent& event, const Strip& s
     if (i < 0 || strip.parts[i].kind != Stretch::gap) continue;
     double widest = 0.0;
     for (Eigen::Index k = 0; k < profile.pieces[i].s.size(); ++k)
-      widest = std::max(widest, std::abs(profile.obstacles[strip.on[j]].gap(profile.pieces[i].r.col(k))));
+      widest = std::max(widest, std::abs(profile.obstacles[strip.on[j].obstacle].gap(profile.pieces[i].r.col(k))));
     if (widest > 1e-5 && !slightly_bowed(profile, i, widest)) continue;
     const auto is_line = [&](int part) {
       return part >= 0 && part < static_cast<int>(strip.parts.size()) &&
@@ -167,15 +167,96 @@ std::vector<Successor> after_graze(const ContactEvent& event, Strip strip) {
   const int i = event.place;
   if (!strip.mid_touch && strip.starts_at_mid(i) && std::abs(event.s) < 1e-9) {
     strip.mid_touch = true;
-    strip.on[0] = event.obstacle;
+    strip.on[0] = {event.obstacle};
     return {strip.successor()};
   }
   const Stretch kind = strip.parts[i].kind;
   const bool left_tail = !strip.half && i == 0, alone = strip.parts.size() == 1;
   const bool right_tail = kind == Stretch::tail && (!left_tail || alone);
   strip.split(i, event.s, left_tail ? Stretch::tail : Stretch::gap, right_tail ? Stretch::tail : Stretch::gap,
-              event.obstacle);
+              chain::Seat{event.obstacle});
   return {strip.successor()};
+}
+
+/// The other joint of a touch between strands; j itself where it touches its own image.
+int partner(const Strip& strip, int j) {
+  const int strand = std::abs(strip.on[j].strand);
+  for (int k = 0; k < static_cast<int>(strip.on.size()); ++k)
+    if (k != j && std::abs(strip.on[k].strand) == strand) return k;
+  return j;
+}
+
+int new_strand(const Strip& strip) {
+  int most = 0;
+  for (const chain::Seat& seat : strip.on) most = std::max(most, std::abs(seat.strand));
+  return most + 1;
+}
+
+/// Two strands that part: at each place the free arcs beside it become one.
+std::vector<Successor> strands_part(int j, Strip strip) {
+  const int other = partner(strip, j);
+  for (const int joint : {std::max(j, other), std::min(j, other)}) {
+    strip.merge(joint - 1, joint, joined(strip.parts[joint - 1].kind, strip.parts[joint].kind));
+    if (j == other) break;
+  }
+  return {strip.successor()};
+}
+
+/// Cuts a free arc at a touch with another strand. @returns the joint
+int cut(Strip& strip, double s, chain::Seat seat) {
+  int i = 0;
+  while (i + 1 < static_cast<int>(strip.parts.size()) && s > strip.s[i + 1]) ++i;
+  const bool left_tail = !strip.half && i == 0, alone = strip.parts.size() == 1;
+  const bool right_tail = strip.parts[i].kind == Stretch::tail && (!left_tail || alone);
+  strip.split(i, s, left_tail ? Stretch::tail : Stretch::gap, right_tail ? Stretch::tail : Stretch::gap, seat);
+  return i + 1;
+}
+
+/// Two strands that meet, or one that meets its own image.
+std::vector<Successor> strands_meet(const ContactEvent& event, Strip strip) {
+  constexpr double same = 1e-6;
+  const int strand = new_strand(strip);
+  const bool own_image =
+      event.mirrored && event.place == event.other && std::abs(event.s - event.s_other) < same;
+  cut(strip, event.s, {0, strand});
+  if (!own_image) cut(strip, event.s_other, {0, event.mirrored ? -strand : strand});
+  return {strip.successor()};
+}
+
+/// A touch of two strands where they come apart into two touches, along the direction in which their distance no longer
+/// grows: of s₁ and s₂ one up and the other down, or both up.
+std::vector<Successor> strands_split(const ContactEvent& event, const Strip& strip, const Profile& profile) {
+  const int j = event.place, other = partner(strip, j);
+  std::vector<Successor> out;
+  for (const double part : {0.05, 0.02, 0.1}) {
+    const double length = part * profile.unit_length;
+    Strip split = strip;
+    const auto widen = [&](int joint, int before, int after) {
+      split.split(joint, strip.s[joint] + 0.5 * length, Stretch::gap, split.parts[joint].kind);
+      split.s[joint] -= 0.5 * length;
+      split.on[joint].strand = before;
+      split.on[joint + 1].strand = after;
+      split.parts[joint].fresh = true;
+    };
+    const int old = strip.on[j].strand, fresh = new_strand(strip);
+    if (j == other) {
+      widen(j, old, -old);
+      out.push_back(split.successor());
+      continue;
+    }
+    for (const bool opposite : {true, false}) {
+      split = strip;
+      const int low = std::min(j, other), high = std::max(j, other);
+      const int sign = strip.on[low].strand == strip.on[high].strand ? 1 : -1;
+      const int first = std::abs(strip.on[low].strand);
+      // Images run the other way.
+      const bool crossed = opposite == (sign > 0);
+      widen(high, sign * (crossed ? fresh : first), sign * (crossed ? first : fresh));
+      widen(low, first, fresh);
+      out.push_back(split.successor());
+    }
+  }
+  return out;
 }
 
 /// What touches at the rod's end need not be tangent there: another mechanics.
@@ -209,13 +290,17 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
     case Kind::force:
       for (const int link : {event.place - 1, event.place})
         if (vanishes(strip, link)) return after_length(link, strip);
+      if (strip.on[event.place].strand != 0) return strands_part(event.place, strip);
       return after_force(event, strip, profile, topology);
     case Kind::curvature:
+      if (strip.on[event.place].strand != 0) return strands_split(event, strip, profile);
       return after_curvature(event, strip, profile);
     case Kind::graze:
       return after_graze(event, strip);
     case Kind::buckling:
       return {bowed(event.place, strip)};
+    case Kind::approach:
+      return strands_meet(event, strip);
   }
   return {};
 }
@@ -227,7 +312,7 @@ Successor mirrored(const Successor& next, bool right_changed, int links) {
   const int count = static_cast<int>(next.topology.stretches.size());
   const auto bound = [&](int k) { return right_changed ? next.s[k] : -next.s[count - k]; };
   const auto link = [&](int k) { return right_changed ? k : count - 1 - k; };
-  const auto obstacle = [&](int k) { return next.topology.obstacle(right_changed ? k : count - k); };
+  const auto seat = [&](int k) { return next.topology.seat(right_changed ? k : count - k); };
   constexpr double middle = 1e-9;
   int first = 0;  // first bound beyond the middle
   while (bound(first) <= middle) ++first;
@@ -244,7 +329,7 @@ Successor mirrored(const Successor& next, bool right_changed, int links) {
   for (int k = count; k-- > first;) add(k, true);
   const auto add_bound = [&](double s, int k) {
     out.s.push_back(s);
-    if (!next.topology.on.empty()) out.topology.on.push_back(obstacle(k));
+    if (!next.topology.on.empty()) out.topology.on.push_back(seat(k));
   };
   for (int k = count; k >= first; --k) add_bound(-bound(k), k);
   if (touches) {

@@ -142,11 +142,19 @@ std::vector<Key> rod_keys() {
                                            "radius r of the rod; the centreline's cylinder is R + r");
   radius.get = [](const Scene& scene) -> std::optional<double> { return scene.rod_radius; };
   radius.set = [](Scene& scene, double value) { scene.rod_radius = value; };
-  radius.is_parameter = false;
+  Key self_contact{
+      .name = "rod.self_contact",
+      .kind = ValueKind::truth,
+      .range = any,
+      .choices = {},
+      .help = "may the rod touch itself? true: its strands keep 2 rod.radius apart; false: it is thin",
+      .get = [](const Scene& scene) -> std::optional<double> { return scene.self_contact ? 1.0 : 0.0; },
+      .set = [](Scene& scene, double value) { scene.self_contact = value != 0.0; }};
   return {
       parameter<&Scene::rod, &Rod::length>("rod.length", Dimension::length, length,
                                            "whole length, or \"inf\" (closed-form tails)"),
       radius,
+      self_contact,
       parameter<&Scene::rod, &Rod::bending_stiffness>(
           "rod.bending_stiffness", Dimension::stiffness, positive,
           "EI of bending in the plane of the flat rod (the plane of the pulls); the unit of stiffness"),

@@ -68,6 +68,7 @@ std::string_view Key::leaf() const { return leaf_of(name); }
 std::string Key::allowed() const {
   if (kind == ValueKind::text && choices.empty()) return "must be a text";
   if (kind == ValueKind::text) return fmt::format("must be one of \"{}\"", fmt::join(choices, "\", \""));
+  if (kind == ValueKind::truth) return "must be true or false";
   if (kind == ValueKind::integer) return fmt::format("must be a whole number {}", range.text());
   return fmt::format("must be {}", range.text());
 }
@@ -82,6 +83,7 @@ std::string Key::default_text() const {
   for (const char* none :
        {"name", "rod.length", "load.tension", "load.angle", "continuation.from", "continuation.to"})
     if (name == none) return "";
+  if (kind == ValueKind::truth) return *get(defaults) != 0.0 ? "true" : "false";
   if (get_text) {
     const std::string text = get_text(defaults);
     return text.empty() ? "" : nlohmann::json(text).dump();

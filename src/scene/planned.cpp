@@ -20,7 +20,6 @@ struct Planned {
 };
 
 constexpr Planned planned[] = {
-    {"rod.self_contact", "false", "contact of the rod with itself"},
     {"rod.extensible", "false", "stretch"},
     {"rod.axial_stiffness", "\"inf\"", "stretch"},
     {"rod.weight", "", "weight"},

@@ -47,10 +47,13 @@ class Resolver {
     const Entry* entry = document_.find("continuation.parameter");
     if (!entry) return;
     const std::string name = read_text(*entry, *find_key(entry->key));
-    if (!is_numeric_key(name)) {
+    // In a thin rod nothing depends on its radius.
+    const Entry* touches = document_.find("rod.self_contact");
+    const bool thick = touches && std::get_if<bool>(&touches->value) && std::get<bool>(touches->value);
+    if (!is_numeric_key(name) || (name == "rod.radius" && !thick)) {
       std::string list;
       for (const Key& key : keys())
-        if (key.is_parameter) list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", key.name);
+        if (key.is_parameter && (thick || key.name != "rod.radius")) list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", key.name);
       throw SceneError(
           fmt::format("{}must be a key that a branch can be followed in, one of {}", entry->prefix(), list));
     }
@@ -140,6 +143,10 @@ class Resolver {
     const Key& key = *find_key(entry.key);
     if (key.kind == ValueKind::text) {
       key.set_text(scene_, read_text(entry, key));
+      return;
+    }
+    if (key.kind == ValueKind::truth) {
+      key.set(scene_, read_truth(entry, key) ? 1.0 : 0.0);
       return;
     }
     const Key& like = meaning(key);

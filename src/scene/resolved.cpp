@@ -31,7 +31,8 @@ std::string to_toml(const Scene& scene) {
     if (!applies(scene, key)) continue;
     std::string value;
     if (const std::string text = key.get_text ? key.get_text(scene) : ""; !text.empty()) value = quoted(text);
-    if (const auto number = key.get ? key.get(scene) : std::nullopt) value = number_text(*number);
+    if (const auto number = key.get ? key.get(scene) : std::nullopt)
+      value = key.kind != ValueKind::truth ? number_text(*number) : *number != 0.0 ? "true" : "false";
     const bool opens =
         key.table() != table && (!value.empty() || (key.table() == "cylinder" && scene.has_cylinder));
     if (opens) out += fmt::format("\n[{}]\n", table = key.table());

@@ -106,6 +106,12 @@ std::string read_text(const Entry& entry, const Key& key) {
   return *text;
 }
 
+bool read_truth(const Entry& entry, const Key& key) {
+  const auto* truth = std::get_if<bool>(&entry.value);
+  if (!truth) throw SceneError(entry.prefix() + key.allowed());
+  return *truth;
+}
+
 void check_names(const Document& document) {
   for (const Entry& entry : document.entries)
     if (!find_key(entry.key))

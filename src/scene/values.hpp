@@ -18,6 +18,9 @@ struct Number {
 Number read_number(const Entry& entry, const Key& key, Dimension dimension, const Range& range);
 
 /// @throws SceneError
+bool read_truth(const Entry& entry, const Key& key);
+
+/// @throws SceneError
 std::string read_text(const Entry& entry, const Key& key);
 
 /// True if the value is written with a unit ("inf" has none). @throws SceneError for a text that is no quantity

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "windlass/bvp/arc.hpp"
+#include "windlass/chain/coupling.hpp"
 #include "windlass/contact/joint.hpp"
 
 /// A rod as a chain of arcs and joints: assembly, factorisation and solution of its equilibrium equations.
@@ -32,6 +33,8 @@ struct Link {
 /// the place c and the holding force λ (Gauges); for each link with unknown n that n; then the interior configurations of
 /// every arc. Increments dx follow the same order with tangent sizes, less what gauges and symmetry keep (and c, which is
 /// given). The first block (joints and forces, `dense_size()`) couples the arcs; the rest is condensed arc by arc.
+///
+/// Contacts of the rod with itself couple any two joints; each has its force λ in the state, after the gauge's.
 ///
 /// Places of contacts, their arclengths and coordinates on the cylinder, are kept to twice the digits of a double: each has
 /// a rest beside it in the state. The forces in an arc of length ℓ between two contacts follow from the difference of their
@@ -61,7 +64,7 @@ class Chain {
   /// @param joints  links.size() + 1 of them; fixed_s gives the arclength of joints that do not locate themselves,
   ///                as a multiple of loads.half_length (−1, 0 or 1); an infinite tail's far joint counts as ±infinity.
   Chain(std::vector<std::unique_ptr<Joint>> joints, std::vector<double> fixed_s, std::vector<Link> links,
-        const Gauges& gauges);
+        const Gauges& gauges, std::vector<Coupling> couplings = {});
 
   Eigen::Index ambient_size() const { return ambient_size_; }
   Eigen::Index size() const { return size_; }
@@ -76,6 +79,19 @@ class Chain {
     return joints_[joint]->kind() == contact::JointKind::touch ||
            joints_[joint]->kind() == contact::JointKind::edge;
   }
+  /// Does it touch an obstacle, and not another strand of the rod?
+  bool on_obstacle(int joint) const { return is_contact(joint) && joints_[joint]->surface() != nullptr; }
+  const std::vector<Coupling>& couplings() const { return couplings_; }
+  /// Force λ of a coupling.
+  double strand_force(const VectorXd& x, int coupling) const { return x(strand_at_[coupling]); }
+  double& strand_force(VectorXd& x, int coupling) const { return x(strand_at_[coupling]); }
+  /// The two strands at a coupling, the second as it is seen from the first.
+  struct Crossing {
+    contact::Centreline first, second;
+    Eigen::Vector3d direction;  ///< e
+    double distance = 0.0;      ///< |D|
+  };
+  Crossing crossing(const VectorXd& x, int coupling) const;
   /// Is the arclength of this joint unknown?
   bool locates(int joint) const { return joints_[joint]->locates() && !(half() && joint == 0); }
   /// Does a gauge hold the rod against sliding along itself in the equilibrium equations?
@@ -192,13 +208,14 @@ class Chain {
   /// Places of joint coordinates, of arclengths (the unknowns of location conditions), of forces, and of what the gauges of
   /// sliding and phase add, in a dense block.
   struct Numbering {
-    std::vector<Eigen::Index> coordinate, location, force;  ///< −1 where absent
+    std::vector<Eigen::Index> coordinate, location, force, strand;  ///< −1 where absent
     Eigen::Index slide = -1, spin = -1, height = -1, phase = -1;
     Eigen::Index size = 0, geometric = 0;
     int constraints = 0;  ///< multipliers and touch locations: one negative direction each
   };
 
   Numbering number(Purpose purpose) const;
+  void couple();
   void keep_coordinates();
   /// Coordinates of a joint that vary.
   const std::vector<int>& kept(Purpose purpose, int joint) const {
@@ -253,6 +270,9 @@ class Chain {
   MatrixXd condensed_share(Purpose purpose, const Local& local, const Arc& arc,
                            const bvp::EndsMatrix& condensed, int link) const;
   contact::Joint::Location location(const VectorXd& x, int joint) const;
+  /// Of the couplings: their forces and conditions, to a residual; their derivatives, to a dense block.
+  void add_strand_forces(const VectorXd& x, const Loads& loads, VectorXd& f) const;
+  void add_couplings(Purpose purpose, const Numbering& numbering, const VectorXd& x, MatrixXd& dense) const;
   /// X_b − X_a of a link's ends.
   contact::SmallVector rise(const VectorXd& x, const Placed& placed, int link) const;
   /// Adds to a contact's place, rests included.
@@ -286,14 +306,16 @@ class Chain {
   std::vector<double> fixed_s_;
   std::vector<Link> links_;
   Gauges gauges_;
+  std::vector<Coupling> couplings_;
+  std::vector<int> coupling_of_;  ///< of a joint; −1: none
   std::vector<std::vector<int>> kept_,
       varied_;            ///< coordinates that vary at a joint, in equilibrium and in variations
   std::vector<int> odd_;  ///< of the first joint of a half chain in odd variations
   int first_contact_ = -1, last_contact_ = -1;  ///< the outermost contacts; without one the ends
   bool in_contact_ = false, slides_ = false;
   Eigen::Index slide_at_ = -1;                                   ///< place of (c, λ) in the state
-  std::vector<Eigen::Index> joint_at_, force_at_, interior_at_;  // offsets in the state
-  std::vector<Eigen::Index> rest_at_;       ///< rests of (s, angle, height) in the state, of contacts only
+  std::vector<Eigen::Index> joint_at_, force_at_, interior_at_, strand_at_;  // offsets in the state
+  std::vector<Eigen::Index> rest_at_;       ///< rests of s and of the places in the state, of contacts only
   std::vector<Eigen::Index> interior_row_;  // offsets in the increment
   Eigen::Index ambient_size_ = 0, size_ = 0, dense_size_ = 0, geometric_size_ = 0;
 

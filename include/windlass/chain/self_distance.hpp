@@ -25,6 +25,17 @@ struct SelfDistance {
 ///
 /// @param whole   of the whole rod, from s = −L/2
 /// @param radius  of the rod [ρ]; 0: not given
-std::optional<SelfDistance> self_distance(const Profile& whole, const RodKind& rod, double radius);
+std::optional<SelfDistance> self_distance(const Profile& whole, double radius);
+
+/// Where two links come nearest to each other, at a local minimum of their distance; `far` where there is none.
+struct Approach {
+  int link = 0, other = 0;  ///< of the chain, link >= other
+  bool mirrored = false;    ///< half chain: the other is the image of that link
+  double distance = 0.0, s = 0.0, s_other = 0.0;
+};
+
+/// One for every pair of links of a thick rod, images of each other once, in a fixed order for a given topology. Touches that
+/// there are do not count.
+std::vector<Approach> approaches(const Profile& profile, const Topology& topology);
 
 }  // namespace windlass::chain

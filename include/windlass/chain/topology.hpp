@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "windlass/chain/chain.hpp"
+#include "windlass/chain/coupling.hpp"
 #include "windlass/obstacle/cylinder.hpp"
 #include "windlass/rod/line_contact.hpp"
 
@@ -14,21 +15,33 @@ namespace windlass::chain {
 /// State of a stretch of rod: line contact, free between contacts, free to the end.
 enum class Stretch { line, gap, tail };
 
+/// What a joint touches: an obstacle, by its place in RodKind::obstacles, or another strand of the rod.
+struct Seat {
+  int obstacle = 0;
+  /// 0: no strand. Two joints with the same size of it touch; with opposite signs the first touches the half-turn's image of
+  /// the second; a joint alone with it touches its own image.
+  int strand = 0;
+  bool operator==(const Seat& other) const = default;
+};
+
 /// The sequence of contacts; joints follow from it (line–free: edge, free–free: touch).
 ///
 /// Of a half chain, symmetric under the half-turn, the stretches from s = 0 outward: the first spans both halves, unless
 /// `mid_touch`: the rod then touches at s = 0. A full chain is the whole rod from s = −L/2, and knows no mid-point.
 ///
-/// Contacts name their obstacle: `on` has one entry a joint (a line's joints lie on the line's), its place in
-/// RodKind::obstacles. Where it is empty all lie on the first.
+/// Contacts name what they touch: `on` has one entry a joint (a line's joints lie on the line's obstacle). Where it is empty
+/// all lie on the first obstacle.
 struct Topology {
   std::vector<Stretch> stretches;
   bool half = true;
   bool mid_touch = false;
-  std::vector<int> on = {};
+  std::vector<Seat> on = {};
 
-  int obstacle(int joint) const { return on.empty() ? 0 : on[joint]; }
-  /// Whole rod, e.g. "tail touch gap line gap touch tail"; a contact on the second obstacle reads "touch:2".
+  Seat seat(int joint) const { return on.empty() ? Seat{} : on[joint]; }
+  int obstacle(int joint) const { return seat(joint).obstacle; }
+  std::vector<Coupling> couplings() const;
+  /// Whole rod, e.g. "tail touch gap line gap touch tail"; a contact on the second obstacle reads "touch:2", one with
+  /// another strand "cross".
   std::string text() const;
   bool contact() const;
   bool operator==(const Topology& other) const;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct Loads {
   double thrust = 0.0;       ///< strut: compressive end force
   double shortening = 0.0;   ///< strut: end shortening / length
   double twist = 0.0;        ///< strut: relative end rotation about e_x [rad]
+  double radius = 0.0;       ///< of the rod: its strands keep 2r apart [ρ]
 };
 
 enum class Side { left, right };  ///< the arc that ends here, the arc that starts here
@@ -49,6 +51,12 @@ struct Place {
   Eigen::Vector4d q = Eigen::Vector4d::UnitX();  ///< frame, body → world
   double angle = 0.0;                            ///< unrolled place round the axis [rad]
   double heading = 0.0;                          ///< unrolled angle of the tangent's projection to e_x [rad]
+};
+
+/// The centre line at a joint: place and tangent, and how they change with the degrees of freedom (3 × tangent).
+struct Centreline {
+  Eigen::Vector3d r, t;
+  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, max_coordinates> dr, dt;
 };
 
 class Joint {
@@ -108,6 +116,17 @@ class Joint {
   virtual std::vector<int> fixed_in_variations() const { return {}; }
   /// How far an end posed without its clamp has turned out of it [rad]: zero at an equilibrium; see FreeRodEnd.
   virtual double out_of_clamp(const double* w) const { return (void)w, 0.0; }
+
+  /// Joints that another strand of the rod may press on (chain::Coupling).
+  virtual Centreline centreline(const double* w) const {
+    return (void)w, throw std::logic_error("no strand presses on this joint"), Centreline();
+  }
+  /// Adds f·∂²r/∂w∂w'. tangent × tangent.
+  virtual void place_curvature(const double* w, const Eigen::Vector3d& f, SmallMatrix& out) const {
+    (void)w, (void)f, (void)out;
+  }
+  /// Leading coordinates that are lengths or angles of a place, whose small differences count: see Chain's rests.
+  virtual int places() const { return 0; }
 
   virtual void retract(const double* w, const double* dw, double* out) const = 0;
 

@@ -27,6 +27,7 @@ class Touch final : public VectorJoint {
   JointKind kind() const override { return JointKind::touch; }
   int tangent() const override { return 2; }
   bool locates() const override { return true; }
+  int places() const override { return 1; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
                  SmallMatrix& out) const override;
@@ -46,6 +47,7 @@ class Edge final : public VectorJoint {
   JointKind kind() const override { return JointKind::edge; }
   int tangent() const override { return 1; }
   bool locates() const override { return true; }
+  int places() const override { return 1; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
                  SmallMatrix& out) const override;

@@ -49,6 +49,7 @@ class Touch final : public Joint {
   int spin_coordinate() const override { return 4; }
   bool locates() const override { return true; }
   double slide(const double* w) const override;
+  int places() const override { return 2; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
                  SmallMatrix& out) const override;
@@ -83,6 +84,7 @@ class Edge final : public VectorJoint {
   int spin_coordinate() const override { return 3; }
   bool locates() const override { return true; }
   double slide(const double* w) const override { return std::cos(w[2]); }
+  int places() const override { return 2; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
                  SmallMatrix& out) const override;
@@ -122,7 +124,7 @@ class SurfaceSection final : public VectorJoint {
 
 /// A section of a free arc, likewise: w = (r, q), 6 degrees of freedom. On the half-turn's axis d₁ = −e_y: the rod may turn
 /// about it and move along it.
-class FreeSection final : public Joint {
+class FreeSection : public Joint {
  public:
   JointKind kind() const override { return JointKind::section; }
   int ambient() const override { return 7; }
@@ -135,6 +137,17 @@ class FreeSection final : public Joint {
   void retract(const double* w, const double* dw, double* out) const override;
   SmallVector turned(const double* w, double turn, double spin) const override;
   void adopt(const Place& place, double* w) const override;
+};
+
+/// A place where a free arc touches another strand of the rod, or its own mirror image: w = (r, q), 6 degrees of freedom,
+/// arclength unknown. Equations 7 with those of the coupling (chain::Coupling), whose force is one more unknown: forces
+/// (3), moments (3), tangency e·d₃ = 0, and for both strands together the distance.
+class Strand final : public FreeSection {
+ public:
+  JointKind kind() const override { return JointKind::touch; }
+  bool locates() const override { return true; }
+  int places() const override { return 3; }
+  Centreline centreline(const double* w) const override;
 };
 
 /// Rod end under the dead pull. moment_free: w = (q), 3 degrees of freedom. clamped: frame along the pull, as in the untwisted planar rod.

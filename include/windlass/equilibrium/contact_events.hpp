@@ -18,6 +18,7 @@
 /// | force | point force at a touch or an edge | the touch is lost (an edge: no successor is known) |
 /// | curvature | g'' at a touch, on a plane less `least_curvature` | the touch flattens into a line, or comes apart into two |
 /// | graze | least gap inside a free arc, of each obstacle | a new touch |
+/// | approach | least distance of two strands less 2r, of every pair of links | a new touch of the two |
 /// | buckling | margin of a line without pressure against its own buckling | it bows off the obstacle between two touches |
 ///
 /// **A gap that has just opened is carried by its line.** Where the pressure p of a line contact is negative, the rod lifts: a
@@ -56,13 +57,16 @@ inline constexpr double gap_inside = 2.23606797749978969641, gap_beside_touch = 
 inline constexpr double carried_inside = 2.1e-10, carried_beside_touch = 5.8e-6;
 
 struct ContactEvent {
-  enum class Kind { pressure, suction, length, force, curvature, graze, buckling };
+  enum class Kind { pressure, suction, length, force, curvature, graze, buckling, approach };
   Kind kind = Kind::force;
   int place = 0;  ///< link (pressure, suction, length, graze, buckling) or joint (force, curvature)
   double value = 0.0;
   double s = 0.0;               ///< where along the rod
   double from = 0.0, to = 0.0;  ///< pressure, suction: the stretch of negative pressure
   int obstacle = 0;             ///< graze: the one that the rod comes near
+  int other = -1;               ///< approach: the link that `place` comes near
+  bool mirrored = false;        ///< approach: it is the half-turn's image of that
+  double s_other = 0.0;         ///< approach: where along the other
   bool imminent = false;        ///< length of a gap so short that its two touches can hardly be told apart
   bool passes = false;          ///< the same equations hold on both sides
   bool redrawn = false;         ///< the same state follows, a gap as an arc or carried by its line

@@ -14,7 +14,7 @@
 /// the help text all come from it.
 namespace windlass::scene {
 
-enum class ValueKind { number, integer, text, direction };
+enum class ValueKind { number, integer, text, direction, truth };  ///< truth: true or false, as 1 or 0
 
 /// Interval of allowed numbers, in the key's own dimension. Bounds of dimensional keys are 0 or infinite, so they
 /// hold in every system of units.

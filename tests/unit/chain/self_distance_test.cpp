@@ -75,12 +75,12 @@ BOOST_AUTO_TEST_SUITE(self_distances)
 
 BOOST_AUTO_TEST_CASE(turns_of_a_helix) {
   for (const double psi : {0.02, 0.05, 0.1}) {
-    const auto found = self_distance(profile(helix(psi), -10.0, 10.0, 24), {}, 0.0);
+    const auto found = self_distance(profile(helix(psi), -10.0, 10.0, 24), 0.0);
     BOOST_REQUIRE(found.has_value());
     // The quintic between samples h = 0.14 apart is h⁶/46080 = 1e-10 off.
     BOOST_TEST(found->distance == turn_distance(psi, 1), tt::tolerance(1e-8));
     // With a radius of more than 2, one turn is no longer than a neighbour's place; the next counts.
-    const auto second = self_distance(profile(helix(psi), -10.0, 10.0, 24), {}, 2.05);
+    const auto second = self_distance(profile(helix(psi), -10.0, 10.0, 24), 2.05);
     BOOST_REQUIRE(second.has_value());
     BOOST_TEST(second->distance == turn_distance(psi, 2), tt::tolerance(1e-8));
   }
@@ -88,12 +88,12 @@ BOOST_AUTO_TEST_CASE(turns_of_a_helix) {
 
 BOOST_AUTO_TEST_CASE(open_and_closed_rings) {
   const double gap = 0.6, length = 2.0 * M_PI - gap;
-  const auto open = self_distance(profile(helix(0.0), -0.5 * length, 0.5 * length, 12), {}, 0.0);
+  const auto open = self_distance(profile(helix(0.0), -0.5 * length, 0.5 * length, 12), 0.0);
   BOOST_REQUIRE(open.has_value());
   BOOST_TEST(open->distance == 2.0 * std::sin(0.5 * gap), tt::tolerance(1e-10));
   BOOST_TEST(open->s1 == -0.5 * length);
   BOOST_TEST(open->s2 == 0.5 * length);
-  const auto closed = self_distance(profile(helix(0.0), -M_PI, M_PI, 12), {}, 0.0);
+  const auto closed = self_distance(profile(helix(0.0), -M_PI, M_PI, 12), 0.0);
   BOOST_REQUIRE(closed.has_value());
   BOOST_TEST(closed->distance < 1e-10);
 }
@@ -107,13 +107,13 @@ BOOST_AUTO_TEST_CASE(tails_that_cross) {
     out.pieces.push_back(piece(line(a.r, a.t, -half), -half - tail, -half, 7));
     out.pieces.push_back(piece(helix(0.0), -half, half, 10));
     out.pieces.push_back(piece(line(b.r, b.t, half), half, half + tail, 7));
-    const auto found = self_distance(out, {}, 0.0);
+    const auto found = self_distance(out, 0.0);
     BOOST_REQUIRE(found.has_value());
     BOOST_TEST(found->distance < 1e-12 * tail);
     BOOST_TEST(found->s1 == -half - 1.0, tt::tolerance(1e-10));
     BOOST_TEST(found->s2 == half + 1.0, tt::tolerance(1e-10));
     // To a tube too thick for the loop the crossing is its own neighbourhood, and beyond the legs only part.
-    BOOST_TEST(!self_distance(out, {}, 3.0).has_value());
+    BOOST_TEST(!self_distance(out, 3.0).has_value());
   }
 }
 
@@ -124,15 +124,15 @@ BOOST_AUTO_TEST_CASE(parallel_legs) {
   out.pieces.push_back(piece(line(a.r, a.t, -quarter), -quarter - 5.0, -quarter, 4));
   out.pieces.push_back(piece(helix(0.0), -quarter, quarter, 8));
   out.pieces.push_back(piece(line(b.r, b.t, quarter), quarter, quarter + 5.0, 4));
-  const auto found = self_distance(out, {}, 0.0);
+  const auto found = self_distance(out, 0.0);
   BOOST_REQUIRE(found.has_value());
   BOOST_TEST(found->distance == 2.0, tt::tolerance(1e-10));
 }
 
 BOOST_AUTO_TEST_CASE(rods_that_do_not_come_back) {
-  BOOST_TEST(!self_distance(profile(line(Vector3d::Zero(), Vector3d::UnitX(), 0.0), -20, 20, 8), {}, 0.0));
-  BOOST_TEST(!self_distance(profile(helix(0.0), -0.25 * M_PI, 0.25 * M_PI, 4), {}, 0.1));
-  BOOST_TEST(!self_distance(profile(helix(1.2), -20, 20, 60), {}, 0.0));  // steeper than it could return
+  BOOST_TEST(!self_distance(profile(line(Vector3d::Zero(), Vector3d::UnitX(), 0.0), -20, 20, 8), 0.0));
+  BOOST_TEST(!self_distance(profile(helix(0.0), -0.25 * M_PI, 0.25 * M_PI, 4), 0.1));
+  BOOST_TEST(!self_distance(profile(helix(1.2), -20, 20, 60), 0.0));  // steeper than it could return
 }
 
 BOOST_AUTO_TEST_CASE(random_curves_against_all_pairs) {
@@ -166,7 +166,7 @@ BOOST_AUTO_TEST_CASE(random_curves_against_all_pairs) {
       return Jet{places[static_cast<std::size_t>(std::lround(s / h))], direction(s),
                  (direction(s + e) - direction(s - e)) / (2.0 * e)};
     };
-    const auto found = self_distance(profile(arc, 0.0, length, elements), {}, 0.0);
+    const auto found = self_distance(profile(arc, 0.0, length, elements), 0.0);
     double least = std::numeric_limits<double>::infinity();
     const int last = 6 * elements;
     const auto d = [&](int i, int j) { return (places[j] - places[i]).norm(); };

@@ -1,0 +1,125 @@
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "windlass/chain/chain.hpp"
+
+/// Contacts of the rod with itself, see chain/coupling.hpp.
+
+namespace windlass::chain {
+
+using contact::SmallMatrix;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+/// Q: the half-turn about e_y, which maps a half chain to the other, or the identity.
+Vector3d image_signs(const Coupling& c) {
+  return c.mirrored ? Vector3d(-1.0, 1.0, -1.0) : Vector3d(1.0, 1.0, 1.0);
+}
+
+}  // namespace
+
+void Chain::couple() {
+  coupling_of_.assign(joints_.size(), -1);
+  for (std::size_t k = 0; k < couplings_.size(); ++k)
+    for (const int joint : {couplings_[k].first, couplings_[k].second}) {
+      if (!locates(joint)) throw std::invalid_argument("a strand cannot touch another at a fixed place");
+      coupling_of_[joint] = static_cast<int>(k);
+    }
+}
+
+Chain::Crossing Chain::crossing(const VectorXd& x, int coupling) const {
+  const Coupling& c = couplings_[coupling];
+  Crossing out;
+  out.first = joints_[c.first]->centreline(coordinates(x, c.first));
+  out.second = joints_[c.second]->centreline(coordinates(x, c.second));
+  const Vector3d image = image_signs(c);
+  out.second.r = image.cwiseProduct(out.second.r);
+  out.second.t = image.cwiseProduct(out.second.t);
+  out.second.dr = image.asDiagonal() * out.second.dr;
+  out.second.dt = image.asDiagonal() * out.second.dt;
+  const Vector3d d = out.first.r - out.second.r;
+  out.distance = d.norm();
+  if (out.distance == 0.0) throw std::domain_error("two strands are at the same place");
+  out.direction = d / out.distance;
+  return out;
+}
+
+void Chain::add_strand_forces(const VectorXd& x, const Loads& loads, VectorXd& f) const {
+  for (std::size_t k = 0; k < couplings_.size(); ++k) {
+    const Coupling& c = couplings_[k];
+    const Crossing at = crossing(x, static_cast<int>(k));
+    const double push = c.weight() * strand_force(x, static_cast<int>(k));
+    const auto pull_on = [&](int joint, const contact::Centreline& strand, double sign) {
+      const contact::SmallVector by_w = sign * push * (strand.dr.transpose() * at.direction);
+      for (std::size_t i = 0; i < kept_[joint].size(); ++i)
+        f(numbering_.coordinate[joint] + static_cast<Eigen::Index>(i)) += by_w(kept_[joint][i]);
+    };
+    pull_on(c.first, at.first, -1.0);
+    pull_on(c.second, at.second, 1.0);
+    f(numbering_.strand[k]) = -c.weight() * (at.distance - 2.0 * loads.radius);
+    f(numbering_.location[c.second]) = at.direction.dot(at.second.t);
+    f(numbering_.location[c.first]) = at.direction.dot(at.first.t);
+  }
+}
+
+void Chain::add_couplings(Purpose purpose, const Numbering& numbering, const VectorXd& x,
+                          MatrixXd& dense) const {
+  for (std::size_t k = 0; k < couplings_.size(); ++k) {
+    const Coupling& c = couplings_[k];
+    const Crossing at = crossing(x, static_cast<int>(k));
+    const double push = c.weight() * strand_force(x, static_cast<int>(k));
+    const Vector3d e = at.direction;
+    const Matrix3d turn = (Matrix3d::Identity() - e * e.transpose()) / at.distance;  // ∂e/∂D
+    // The image of an odd variation has the other sign.
+    const double image = purpose == Purpose::odd && c.mirrored ? -1.0 : 1.0;
+    struct End {
+      int joint;
+      const contact::Centreline& strand;
+      Eigen::Matrix3Xd dr, dt;  // of D and of the tangent, with what varies
+      Vector3d force;    // on the joint itself, in the Lagrangian's sign
+    };
+    const auto end = [&](int joint, const contact::Centreline& strand, double sign, const Vector3d& force) {
+      const std::vector<int>& varied = kept(purpose, joint);
+      const auto count = static_cast<Eigen::Index>(varied.size());
+      End out{joint, strand, Eigen::Matrix3Xd(3, count), Eigen::Matrix3Xd(3, count), force};
+      for (Eigen::Index i = 0; i < count; ++i) {
+        out.dr.col(i) = sign * strand.dr.col(varied[i]);
+        out.dt.col(i) = strand.dt.col(varied[i]);
+      }
+      return out;
+    };
+    const End ends[] = {end(c.first, at.first, 1.0, -push * e),
+                        end(c.second, at.second, -image, push * image_signs(c).cwiseProduct(e))};
+    for (const End& a : ends) {
+      const Eigen::Index first = numbering.coordinate[a.joint], count = a.dr.cols();
+      for (const End& b : ends)
+        dense.block(first, numbering.coordinate[b.joint], count, b.dr.cols()) -=
+            push * a.dr.transpose() * turn * b.dr;
+      const int all = joints_[a.joint]->tangent();
+      SmallMatrix bend = SmallMatrix::Zero(all, all);
+      joints_[a.joint]->place_curvature(coordinates(x, a.joint), a.force, bend);
+      const std::vector<int>& varied = kept(purpose, a.joint);
+      for (Eigen::Index r = 0; r < count; ++r)
+        for (Eigen::Index s = 0; s < count; ++s) dense(first + r, first + s) += bend(varied[r], varied[s]);
+      if (const Eigen::Index row = numbering.strand[k]; row >= 0) {
+        dense.block(row, first, 1, count) -= c.weight() * e.transpose() * a.dr;
+        dense.block(first, row, count, 1) -= c.weight() * a.dr.transpose() * e;
+      }
+    }
+    if (purpose != Purpose::equilibrium) continue;
+    const int conditions = c.with_itself() ? 1 : 2;
+    for (int i = 0; i < conditions; ++i) {
+      const Eigen::Index row = numbering.location[ends[i].joint];
+      dense.block(row, numbering.coordinate[ends[i].joint], 1, ends[i].dt.cols()) +=
+          e.transpose() * ends[i].dt;
+      for (const End& b : ends)
+        dense.block(row, numbering.coordinate[b.joint], 1, b.dr.cols()) +=
+            ends[i].strand.t.transpose() * turn * b.dr;
+    }
+  }
+}
+
+}  // namespace windlass::chain
