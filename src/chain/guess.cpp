@@ -54,13 +54,16 @@ void adopt_line(const RodKind& rod, const obstacle::Surface& surface, const Chai
                 const Profile& profile, double begin, double length, VectorXd& x) {
   using contact::spatial::Edge;
   const Arc& arc = *chain.link(link).arc;
-  const auto is_edge = [&](int joint) { return chain.joint(joint).kind() == contact::JointKind::edge; };
+  const auto on_line = [&](int joint) {
+    return chain.joint(joint).kind() == contact::JointKind::edge ||
+           dynamic_cast<const contact::spatial::Pressed*>(&chain.joint(joint)) != nullptr;
+  };
   double twist =
       Edge::twist(chain.coordinates(x, link));  // a section where the half-turn meets the line has it, too
   double* interior = chain.interior(x, link);
   adopt_interior(rod, &surface, arc, profile, begin, length, twist, interior);
   const auto turns = [](double angle) { return 2.0 * M_PI * std::round(angle / (2.0 * M_PI)); };
-  if (is_edge(link + 1)) {
+  if (on_line(link + 1)) {
     double& end = Edge::twist(chain.coordinates(x, link + 1));
     end += turns(twist - end);
   }

@@ -248,13 +248,22 @@ Contact obstacle_contact(const Chain& chain, const Topology& topology, const Rod
   return c;
 }
 
+int coupling_at(const Chain& chain, int joint) {
+  const std::vector<Coupling>& all = chain.couplings();
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const Coupling& c) { return c.first == joint || c.second == joint; });
+  return found == all.end() ? -1 : static_cast<int>(found - all.begin());
+}
+
+Vector3d image_of(const Coupling& c) { return c.mirrored ? Vector3d(-1.0, 1.0, -1.0) : Vector3d::Ones(); }
+
 /// Contacts with another strand. Of the distance D(s₁, s₂) at its least: D₁₁ = 1/D + e·r₁″, D₂₂ = 1/D − e·r₂″,
 /// D₁₂ = −t₁·t₂/D.
 Contact strand_contact(const Chain& chain, const RodKind& rod, const VectorXd& x, int j, int coupling,
                        const std::vector<Piece>& pieces) {
   const Coupling& with = chain.couplings()[coupling];
   const Chain::Crossing at = chain.crossing(x, coupling);
-  const Vector3d image = with.mirrored ? Vector3d(-1.0, 1.0, -1.0) : Vector3d::Ones();
+  const Vector3d image = image_of(with);
   Contact c;
   c.obstacle = -1;
   c.coupling = coupling;
@@ -262,6 +271,10 @@ Contact strand_contact(const Chain& chain, const RodKind& rod, const VectorXd& x
   c.angle = obstacle::Cylinder::angle(c.r);
   c.normal = j == with.first ? at.direction : Vector3d(-image.cwiseProduct(at.direction));
   c.force = chain.strand_force(x, coupling);
+  if (const obstacle::Surface* surface = chain.joint(j).surface()) {
+    const Vector3d jump = pieces[j - 1].n.rightCols<1>() - pieces[j].n.col(0);
+    c.reaction = (jump - c.force * c.normal).dot(surface->normal(c.r));
+  }
   const Vector3d first = curvature_of(rod, pieces[with.first], 0),
                  second = image.cwiseProduct(curvature_of(rod, pieces[with.second], 0));
   Eigen::Matrix2d bend;
@@ -289,6 +302,16 @@ void carry_turns(std::vector<Contact>& contacts, std::vector<Piece>& pieces) {
   }
 }
 
+/// Part along `normal` of the force of another strand at a joint, on the rod.
+double strand_push(const Chain& chain, const VectorXd& x, int joint, const Vector3d& normal) {
+  const int k = coupling_at(chain, joint);
+  if (k < 0) return 0.0;
+  const Coupling& with = chain.couplings()[k];
+  const Vector3d e = chain.crossing(x, k).direction;
+  const Vector3d on_this = joint == with.first ? e : Vector3d(-image_of(with).cwiseProduct(e));
+  return chain.strand_force(x, k) * on_this.dot(normal);
+}
+
 }  // namespace
 
 Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod, const VectorXd& x,
@@ -303,12 +326,9 @@ Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod
   unroll(out.pieces);
   for (int j = 0; j < chain.joint_count(); ++j) {
     if (!chain.is_contact(j)) continue;
-    const auto found = std::find_if(chain.couplings().begin(), chain.couplings().end(),
-                                    [&](const Coupling& c) { return c.first == j || c.second == j; });
-    Contact c = found == chain.couplings().end()
-                    ? obstacle_contact(chain, topology, rod, x, j, out.pieces)
-                    : strand_contact(chain, rod, x, j, static_cast<int>(found - chain.couplings().begin()),
-                                     out.pieces);
+    const int coupling = coupling_at(chain, j);
+    Contact c = coupling < 0 ? obstacle_contact(chain, topology, rod, x, j, out.pieces)
+                             : strand_contact(chain, rod, x, j, coupling, out.pieces);
     c.joint = j;
     c.s = chain.arclength(x, loads, j);
     c.z = c.r(2);
@@ -330,7 +350,7 @@ double total_contact_force(const Profile& profile, const Topology& topology) {
   double sum = 0.0;
   for (const Piece& piece : profile.pieces) sum += piece.force * (topology.half ? 2.0 : 1.0);
   for (const Contact& c : profile.contacts)
-    if (c.coupling < 0) sum += c.force * copies(topology, c.joint);
+    sum += (c.coupling < 0 ? c.force : c.reaction.value_or(0.0)) * copies(topology, c.joint);
   return sum;
 }
 
@@ -350,9 +370,11 @@ double total_contact_force(const Chain& chain, const Topology& topology, const R
       n_first.head(n.size()) = n;
       n_last = n_first;
     }
-    if (chain.on_obstacle(i))
-      sum += copies(topology, i) * contact_force(i > 0 ? n_before : reflected(n_first), n_first,
-                                                 chain.joint(i).chart(chain.coordinates(x, i)).normal);
+    if (chain.on_obstacle(i)) {
+      const Vector3d normal = chain.joint(i).chart(chain.coordinates(x, i)).normal;
+      const Vector3d before = i > 0 ? n_before : reflected(n_first);
+      sum += copies(topology, i) * (contact_force(before, n_first, normal) - strand_push(chain, x, i, normal));
+    }
     n_before = n_last;
   }
   return sum;

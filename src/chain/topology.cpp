@@ -67,6 +67,8 @@ std::unique_ptr<Joint> end_joint(const RodKind& rod, const Topology& t, const Ar
 /// Joint between two stretches, the first on the left, on an obstacle.
 std::unique_ptr<Joint> contact_joint(const RodKind& rod, Stretch left, Stretch right, Seat seat) {
   const int obstacle = seat.obstacle;
+  if (left == Stretch::line && right == Stretch::line && seat.strand != 0 && rod.spatial)
+    return std::make_unique<spatial::Pressed>(rod.obstacles.pointer(obstacle));
   if (left == Stretch::line && right == Stretch::line)
     throw std::invalid_argument("two line contacts cannot meet at a joint");
   if (left != Stretch::line && right != Stretch::line) {
@@ -198,13 +200,13 @@ std::string Topology::text() const {
   const std::vector<Stretch>& all = whole.stretches;
   const auto named = [&](const char* contact, std::size_t joint) {
     const int obstacle = whole.obstacle(static_cast<int>(joint));
-    if (whole.seat(static_cast<int>(joint)).strand != 0) return std::string("cross");
     return obstacle == 0 ? std::string(contact) : std::string(contact) + ":" + std::to_string(obstacle + 1);
   };
   std::string text;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (i > 0)
-      text += all[i] != Stretch::line && all[i - 1] != Stretch::line ? " " + named("touch", i) + " " : " ";
+    const bool touch = i > 0 && (all[i] == Stretch::line) == (all[i - 1] == Stretch::line);
+    const bool strand = i > 0 && whole.seat(static_cast<int>(i)).strand != 0;
+    if (i > 0) text += !touch ? " " : strand ? " cross " : " " + named("touch", i) + " ";
     text += all[i] == Stretch::line ? named(word(all[i]), i) : word(all[i]);
   }
   return text;

@@ -184,6 +184,33 @@ Centreline Strand::centreline(const double* w) const {
   return line;
 }
 
+Attachment Pressed::attach(Side, const double* w, const Loads&) const {
+  Attachment at = sized(2, 2, 2, tangent());
+  at.q << w[2], w[3];
+  at.dq.rightCols(2).setIdentity();
+  at.x << w[0], w[1];
+  at.dx.leftCols(2).setIdentity();
+  return at;
+}
+
+Centreline Pressed::centreline(const double* w) const {
+  const obstacle::Chart here = chart(w);
+  const double c = std::cos(w[2]), s = std::sin(w[2]);
+  Centreline line{here.r, here.tangents * Eigen::Vector2d(c, s), {}, {}};
+  line.dr.setZero(3, tangent());
+  line.dr.leftCols<2>() = here.tangents;
+  line.dt.setZero(3, tangent());
+  line.dt.leftCols<2>() = -here.normal * (here.bend * Eigen::Vector2d(c, s)).transpose();
+  line.dt.col(2) = here.tangents * Eigen::Vector2d(-s, c);
+  return line;
+}
+
+void Pressed::place_curvature(const double* w, const Vector3d& f, SmallMatrix& out) const {
+  out.topLeftCorner<2, 2>() += chart(w).second(f);
+}
+
+void Pressed::adopt(const Place& place, double* w) const { Edge(Side::left, 1.0, surface_).adopt(place, w); }
+
 Attachment End::attach(Side, const double* w, const Loads& loads) const {
   Attachment at = sized(4, 3, 3, tangent());
   if (clamped_) {

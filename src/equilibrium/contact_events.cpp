@@ -100,6 +100,7 @@ std::optional<double> beyond_carried(const Profile& profile, int link, bool begi
   double force = 0.0;
   for (const Contact& c : profile.contacts) {
     if (c.joint != link && c.joint != link + 1) continue;
+    if (c.coupling >= 0) return std::nullopt;
     ++(c.edge ? edges : touches);
     if (c.edge) force += c.force;
   }
@@ -121,6 +122,27 @@ bool beside_unpressed(const Profile& profile, int link) {
          (link < last && profile.pieces[link + 1].buckling);
 }
 
+bool beside_strand(const Profile& profile, int link) {
+  return std::any_of(profile.contacts.begin(), profile.contacts.end(), [&](const Contact& c) {
+    return c.coupling >= 0 && (c.joint == link || c.joint == link + 1);
+  });
+}
+
+/// Two touches with a short gap between them that have come from one: they meet where its length says so, before their
+/// curvature, which falls with the square of it, can.
+bool about_to_meet(const Profile& profile, const Contact& touch) {
+  constexpr double short_gap = 0.02;
+  const auto shorter = [&](int link) {
+    return link >= 0 && link < static_cast<int>(profile.pieces.size()) &&
+           length_of(profile.pieces[link]) < short_gap * profile.unit_length;
+  };
+  return std::any_of(profile.contacts.begin(), profile.contacts.end(), [&](const Contact& c) {
+    return c.coupling >= 0 && touch.coupling >= 0 &&
+           ((c.joint == touch.joint + 1 && shorter(touch.joint)) ||
+            (c.joint == touch.joint - 1 && shorter(c.joint)));
+  });
+}
+
 ContactEvent length_event(const Profile& profile, int i, bool begins_at_mid) {
   const Piece& piece = profile.pieces[i];
   const bool gap = piece.stretch == Stretch::gap;
@@ -130,6 +152,7 @@ ContactEvent length_event(const Profile& profile, int i, bool begins_at_mid) {
   const bool between_touches =
       gap && std::count_if(profile.contacts.begin(), profile.contacts.end(), is_touch) == 2;
   const double shortest = piece.stretch == Stretch::tail ? shortest_tail
+                          : beside_strand(profile, i)    ? least_beside_strand
                           : between_touches              ? least_between_touches
                                                          : least_length;
   const double least = shortest * profile.unit_length;
@@ -151,7 +174,7 @@ double least_curvature_at(const Profile& profile, const Contact& c) {
 
 std::string ContactEvent::name() const {
   static const char* const words[] = {"pressure",  "suction", "length",   "force",
-                                      "curvature", "graze",   "buckling", "approach"};
+                                      "curvature", "graze",   "buckling", "approach", "reaction"};
   const std::string name = std::string(words[static_cast<int>(kind)]) + " " + std::to_string(place);
   if (kind == Kind::approach) return name + " to " + std::to_string(other) + (mirrored ? "'" : "");
   return obstacle == 0 ? name : name + ":" + std::to_string(obstacle + 1);
@@ -181,8 +204,10 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
       seen.push_back(c.coupling);
     }
     events.push_back({Kind::force, c.joint, c.force, c.s});
-    if (!c.edge)
-      events.push_back({Kind::curvature, c.joint, c.gap_curvature - least_curvature_at(profile, c), c.s});
+    if (c.reaction) events.push_back({Kind::reaction, c.joint, *c.reaction, c.s});
+    if (c.edge) continue;
+    const double bend = c.gap_curvature - least_curvature_at(profile, c);
+    events.push_back({Kind::curvature, c.joint, about_to_meet(profile, c) ? 1.0 : bend, c.s});
   }
   for (const chain::Approach& near : chain::approaches(profile, topology)) {
     ContactEvent event{Kind::approach, near.link, near.distance - 2.0 * profile.radius, near.s};

@@ -149,11 +149,24 @@ double to_the_end(RodProblem& problem, const Vector& x, const Vector& p, int lin
   return solved ? std::abs(beside(0) - p(0)) : -1.0;
 }
 
+bool beside_strand(const RodProblem& problem, int link) {
+  const std::vector<chain::Coupling> strands = problem.topology().couplings();
+  return std::any_of(strands.begin(), strands.end(), [&](const chain::Coupling& c) {
+    return c.first == link || c.first == link + 1 || c.second == link || c.second == link + 1;
+  });
+}
+
+double entered_beside_strand(const RodProblem& problem) {
+  return 2.0 * least_beside_strand * problem.rod().unit_length;
+}
+
 /// Brings an opened arc to the length that it is entered with, as far as the contacts hold: longer ones lie further from
 /// the event, in shorter ones rounding moves the edges, by its size over the edges' force, length³.
 void adjust_length(Entry& entry, int link) {
-  constexpr double factor = 1.5;
-  const double entered = 0.06 * entry.problem->rod().unit_length;
+  const bool strand = beside_strand(*entry.problem, link);
+  const double factor = strand ? 4.0 : 1.5;
+  const double entered = strand ? entered_beside_strand(*entry.problem)
+                                : 0.06 * entry.problem->rod().unit_length;
   const double now = length_of(entry, link);
   const double change = now > factor * entered ? 1.0 / factor : now < entered ? factor : 1.0;
   if (change == 1.0) return;
@@ -192,18 +205,25 @@ bool bring_to(Entry& entry, int link, double p) {
 /// @param as_long  as it is at p(0) = p; else brought to the length that arcs are entered with
 std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, int depth, bool as_long,
                                   double p) {
-  if (!settle_shape(*entry.problem, entry.x, entry.p, with_short_gaps(entry, opened))) return std::nullopt;
+  const bool dbg = getenv("DBGT");
+  auto show = [&](const char* what, Entry& e) { if (!dbg) return; fprintf(stderr,"   [%d] %s p %.10g res %.3g lengths", depth, what, e.p(0), e.problem->residual_norm(e.problem->residual(e.x,e.p))); for(int i=0;i<e.problem->chain().link_count();++i) fprintf(stderr," %.5g",length_of(e,i)); for (std::size_t k=0;k<e.problem->chain().couplings().size();++k) fprintf(stderr," lam %.5g", e.problem->chain().strand_force(e.x,k)); for(int i=0;i<e.problem->chain().link_count();++i) { auto n=e.problem->chain().force(e.x,e.problem->loads(e.p),i); fprintf(stderr," n%d",i); for(int q=0;q<n.size();++q) fprintf(stderr," %.4g",n(q)); } fprintf(stderr,"\n"); };
+  show("guess",entry);
+  if (!settle_shape(*entry.problem, entry.x, entry.p, with_short_gaps(entry, opened))) { show("settle failed",entry); return std::nullopt; }
+  show("settled",entry);
   // What only redraws a state leaves all else where it is at the same load; at another, gaps that are open already move far.
   Entry here = entry;
   here.p(0) = p;
   const bool in_place = as_long && tried([&] { return solve_in_place(*here.problem, here.x, here.p); });
   if (in_place) entry = here;
-  const double length = length_of(entry, opened.front());
+  double length = length_of(entry, opened.front());
+  if (beside_strand(*entry.problem, opened.front()))
+    length = std::max(length, entered_beside_strand(*entry.problem));
   const auto solve = [&] {
     return in_place ? solve_in_place(*entry.problem, entry.x, entry.p)
                     : solve_at_length(*entry.problem, entry.x, entry.p, opened.front(), length);
   };
-  if (!in_place && !solve()) return std::nullopt;
+  if (!in_place && !solve()) { show("solve failed",entry); return std::nullopt; }
+  show("solved",entry);
   // What is admissible is judged on a mesh that is fine enough: events that only a finer one shows would be passed unseen.
   if (const std::optional<Vector> finer = entry.problem->adapt(entry.x, entry.p)) {
     entry.x = *finer;
@@ -310,6 +330,8 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
     if (!first) first = transition;
     const bool shrinks = event.kind == Kind::length && straight_line(*this, event.place) >= 0;
     std::optional<Entry> found = enter(entry, event, next, shrinks, transition.precision);
+    if (getenv("DBGT")) { fprintf(stderr,"TRANS %s at p %.12g -> %s found %d\n",event.name().c_str(),p(0),next.topology.text().c_str(),(int)found.has_value());
+      if (found) { fprintf(stderr,"  at p %.12g:",found->p(0)); for (auto& e: contact_events(found->problem->profile(found->x,found->p),found->problem->topology())) fprintf(stderr," %s %.4g;",e.name().c_str(),e.value); fprintf(stderr,"\n lengths"); for(int i=0;i<found->problem->chain().link_count();++i) fprintf(stderr," %.5g",length_of(*found,i)); fprintf(stderr,"\n"); } }
     if (!found || !tried([&] { return found->problem->settle(found->x, found->p), true; })) continue;
     const auto here = std::static_pointer_cast<RodProblem>(clone());
     if (shrinks)

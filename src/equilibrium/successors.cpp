@@ -17,6 +17,7 @@ namespace {
 
 /// Free arcs left and right of what was lost become one: a tail if either is.
 Stretch joined(Stretch a, Stretch b) {
+  if (a == Stretch::line) return b;  // a strand that pressed on a line
   return a == Stretch::tail || b == Stretch::tail ? Stretch::tail : Stretch::gap;
 }
 
@@ -77,8 +78,31 @@ bool vanishes(const Strip& strip, int link) {
          strip.parts[link].kind == Stretch::line && std::abs(strip.s[link + 1] - strip.s[link]) < vanished;
 }
 
+bool is_line(const Strip& strip, int part) {
+  return part >= 0 && part < static_cast<int>(strip.parts.size()) && strip.parts[part].kind == Stretch::line;
+}
+
+/// A touch between strands passes the edge of a line contact: the gap between the two is a stretch of the line now, or the
+/// other way round.
+std::optional<Successor> strand_passes_edge(int link, Strip strip) {
+  const auto strand = [&](int joint) { return strip.on[joint].strand != 0; };
+  const bool before = link > 0 && strand(link), after = strand(link + 1);
+  const bool line = is_line(strip, link);
+  // The other joint is an edge: of the line itself, or of the one beyond the gap.
+  const bool from_left = after && !before && link > 0 && is_line(strip, link - 1) != line;
+  const bool from_right = before && !after && is_line(strip, link + 1) != line;
+  if (!from_left && !from_right) return std::nullopt;
+  strip.parts[link].kind = line ? Stretch::gap : Stretch::line;
+  strip.parts[link].fresh = true;
+  const int edge = from_left ? link : link + 1, other = from_left ? link + 1 : link;
+  std::swap(strip.on[edge].strand, strip.on[other].strand);
+  strip.on[other].obstacle = strip.on[edge].obstacle;
+  return strip.successor();
+}
+
 std::vector<Successor> after_length(int link, const Strip& strip) {
   std::vector<Successor> out;
+  if (const auto passed = strand_passes_edge(link, strip)) return {*passed};
   // In long helices lines shrink to nothing together, at distances that differ by less than rounding.
   Strip together = strip;
   int count = 0;
@@ -212,6 +236,20 @@ int cut(Strip& strip, double s, chain::Seat seat) {
   return i + 1;
 }
 
+/// A strand that lies on an obstacle where another presses on it lifts off there: the line ends before and begins anew
+/// behind, and between the other carries it alone.
+std::vector<Successor> strand_lifts(int j, Strip strip) {
+  constexpr double length = 0.05;
+  const chain::Seat seat = strip.on[j];
+  const double s = strip.s[j];
+  strip.split(j, s + length, Stretch::gap, Stretch::line);
+  strip.split(j - 1, s - length, Stretch::line, Stretch::gap);
+  strip.on[j] = strip.on[j + 2] = {seat.obstacle, 0};
+  strip.on[j + 1] = seat;
+  strip.parts[j].fresh = strip.parts[j + 1].fresh = true;
+  return {strip.successor()};
+}
+
 /// Two strands that meet, or one that meets its own image.
 std::vector<Successor> strands_meet(const ContactEvent& event, Strip strip) {
   constexpr double same = 1e-6;
@@ -299,6 +337,8 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
       return after_graze(event, strip);
     case Kind::buckling:
       return {bowed(event.place, strip)};
+    case Kind::reaction:
+      return strand_lifts(event.place, strip);
     case Kind::approach:
       return strands_meet(event, strip);
   }
@@ -346,7 +386,8 @@ Successor mirrored(const Successor& next, bool right_changed, int links) {
 void join_lines(Successor& next) {
   std::vector<Stretch>& stretches = next.topology.stretches;
   for (std::size_t i = 0; i + 1 < stretches.size();) {
-    if (stretches[i] != Stretch::line || stretches[i + 1] != Stretch::line) {
+    const bool apart = next.topology.seat(static_cast<int>(i) + 1).strand != 0;  // a strand presses between
+    if (stretches[i] != Stretch::line || stretches[i + 1] != Stretch::line || apart) {
       ++i;
       continue;
     }

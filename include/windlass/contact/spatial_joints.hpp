@@ -150,6 +150,31 @@ class Strand final : public FreeSection {
   Centreline centreline(const double* w) const override;
 };
 
+/// A place of a line contact that another strand presses on: w = (u, ψ, χ), 4 degrees of freedom, arclength unknown. What of
+/// the strand's force is normal to the obstacle goes straight to it, the rest is a jump of the line's forces along it: ψ
+/// and χ and their moments are continuous. Equations 5 with tangency to the strand, e·t = 0.
+class Pressed final : public VectorJoint {
+ public:
+  explicit Pressed(SurfacePointer surface) : surface_(std::move(surface)) {}
+  JointKind kind() const override { return JointKind::touch; }
+  int tangent() const override { return 4; }
+  bool locates() const override { return true; }
+  int height_coordinate() const override { return 1; }
+  int spin_coordinate() const override { return 3; }
+  std::vector<int> out_of_plane() const override { return {1, 2, 3}; }
+  double slide(const double* w) const override { return std::cos(w[2]); }
+  int places() const override { return 2; }
+  Attachment attach(Side side, const double* w, const Loads& loads) const override;
+  Centreline centreline(const double* w) const override;
+  void place_curvature(const double* w, const Eigen::Vector3d& f, SmallMatrix& out) const override;
+  void adopt(const Place& place, double* w) const override;
+  const obstacle::Surface* surface() const override { return surface_.get(); }
+  Eigen::Vector2d on_surface(const double* w) const override { return {w[0], w[1]}; }
+
+ private:
+  SurfacePointer surface_;
+};
+
 /// Rod end under the dead pull. moment_free: w = (q), 3 degrees of freedom. clamped: frame along the pull, as in the untwisted planar rod.
 class End final : public Joint {
  public:

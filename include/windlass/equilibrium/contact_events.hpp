@@ -19,6 +19,7 @@
 /// | curvature | g'' at a touch, on a plane less `least_curvature` | the touch flattens into a line, or comes apart into two |
 /// | graze | least gap inside a free arc, of each obstacle | a new touch |
 /// | approach | least distance of two strands less 2r, of every pair of links | a new touch of the two |
+/// | reaction | force of the obstacle under a strand that another presses on | the strand lifts there |
 /// | buckling | margin of a line without pressure against its own buckling | it bows off the obstacle between two touches |
 ///
 /// **A gap that has just opened is carried by its line.** Where the pressure p of a line contact is negative, the rod lifts: a
@@ -36,6 +37,10 @@ namespace windlass::equilibrium {
 inline constexpr double least_length = 1e-3;
 /// The curvature of two touches falls with the square of the gap between them; here it still is a hundred times its rounding.
 inline constexpr double least_between_touches = 5e-3;
+
+/// An arc that begins or ends where strands touch: neither its forces nor what follows grows with 1/ℓ, for its ends are no
+/// contacts of one surface. It gives way this early, in the same units.
+inline constexpr double least_beside_strand = 1e-5;
 
 /// A tail gives way this early, in the same units: its moment, of its own size, has rounding errors of its frames over ℓ.
 inline constexpr double shortest_tail = 1e-4;
@@ -57,7 +62,7 @@ inline constexpr double gap_inside = 2.23606797749978969641, gap_beside_touch = 
 inline constexpr double carried_inside = 2.1e-10, carried_beside_touch = 5.8e-6;
 
 struct ContactEvent {
-  enum class Kind { pressure, suction, length, force, curvature, graze, buckling, approach };
+  enum class Kind { pressure, suction, length, force, curvature, graze, buckling, approach, reaction };
   Kind kind = Kind::force;
   int place = 0;  ///< link (pressure, suction, length, graze, buckling) or joint (force, curvature)
   double value = 0.0;
