@@ -74,7 +74,7 @@ void BranchRecorder::judge(const output::BranchRow& row) {
     ++imprecise_;
     worst_error_ = std::max(worst_error_, row.error_estimate);
   }
-  if (row.self_distance && *row.self_distance < 2.0 * radius_) {
+  if (row.self_distance && *row.self_distance < output::touching * 2.0 * radius_) {
     ++too_close_;
     closest_ = std::min(closest_, *row.self_distance);
   }

@@ -171,7 +171,7 @@ void warn(const Solution& solution, const scene::Scene& scene) {
   if (solution.error_estimate > scene.model.tolerance)
     fmt::print(stderr, "windlass: model.tolerance = {:g} was not met: the error estimate is {:.1e}\n",
                scene.model.tolerance, solution.error_estimate);
-  if (solution.self_distance && *solution.self_distance < 2.0 * scene.rod_radius)
+  if (solution.self_distance && *solution.self_distance < output::touching * 2.0 * scene.rod_radius)
     fmt::print(
         stderr,
         "windlass: the rod passes through itself: self_distance = {:.6g} (s = {:.6g} and {:.6g}), under "

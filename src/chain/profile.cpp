@@ -259,7 +259,7 @@ Vector3d image_of(const Coupling& c) { return c.mirrored ? Vector3d(-1.0, 1.0, -
 
 /// Contacts with another strand. Of the distance D(s₁, s₂) at its least: D₁₁ = 1/D + e·r₁″, D₂₂ = 1/D − e·r₂″,
 /// D₁₂ = −t₁·t₂/D.
-Contact strand_contact(const Chain& chain, const RodKind& rod, const VectorXd& x, int j, int coupling,
+Contact strand_contact(const Chain& chain, const Topology& topology, const RodKind& rod, const VectorXd& x, int j, int coupling,
                        const std::vector<Piece>& pieces) {
   const Coupling& with = chain.couplings()[coupling];
   const Chain::Crossing at = chain.crossing(x, coupling);
@@ -274,6 +274,7 @@ Contact strand_contact(const Chain& chain, const RodKind& rod, const VectorXd& x
   if (const obstacle::Surface* surface = chain.joint(j).surface()) {
     const Vector3d jump = pieces[j - 1].n.rightCols<1>() - pieces[j].n.col(0);
     c.reaction = (jump - c.force * c.normal).dot(surface->normal(c.r));
+    c.obstacle = topology.obstacle(j);
   }
   const Vector3d first = curvature_of(rod, pieces[with.first], 0),
                  second = image.cwiseProduct(curvature_of(rod, pieces[with.second], 0));
@@ -328,7 +329,7 @@ Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod
     if (!chain.is_contact(j)) continue;
     const int coupling = coupling_at(chain, j);
     Contact c = coupling < 0 ? obstacle_contact(chain, topology, rod, x, j, out.pieces)
-                             : strand_contact(chain, rod, x, j, coupling, out.pieces);
+                             : strand_contact(chain, topology, rod, x, j, coupling, out.pieces);
     c.joint = j;
     c.s = chain.arclength(x, loads, j);
     c.z = c.r(2);

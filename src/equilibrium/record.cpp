@@ -82,16 +82,57 @@ JointRecord end_record(const ArcRecord& arc, bool at_end, bool infinite) {
 
 JointRecord contact_record(const chain::Contact& c, double sign) {
   JointRecord joint;
-  joint.kind = c.edge ? JointKind::edge : JointKind::touch;
+  joint.kind = c.edge ? JointKind::edge : c.obstacle < 0 ? JointKind::strand : JointKind::touch;
   joint.s = sign * c.s;
   joint.angle = sign * c.angle;
   joint.z = sign * c.z;
-  joint.force = c.force;
+  joint.force = c.coupling < 0 ? c.force : c.reaction.value_or(0.0);
+  if (c.coupling >= 0) joint.strand_force = c.force;
   joint.obstacle = c.obstacle;
   const Vector3d image(sign, 1.0, sign);  // under the half-turn, for sign = −1
   joint.r = image.cwiseProduct(c.r);
   joint.normal = image.cwiseProduct(c.normal);
   return joint;
+}
+
+/// Names each strand's joint to the one that it touches.
+/// @param where  joint of the chain, and 1 or −1 for its image, of each contact in `contacts`
+void name_partners(const std::vector<chain::Coupling>& couplings,
+                   const std::vector<std::pair<int, int>>& where, std::vector<JointRecord>& contacts) {
+  for (std::size_t k = 0; k < where.size(); ++k)
+    for (const chain::Coupling& c : couplings) {
+      const auto [joint, side] = where[k];
+      if (joint != c.first && joint != c.second) continue;
+      const std::pair<int, int> other{joint == c.first ? c.second : c.first, c.mirrored ? -side : side};
+      const auto found = std::find(where.begin(), where.end(), other);
+      if (found != where.end()) contacts[k].partner = 1 + static_cast<int>(found - where.begin());
+    }
+}
+
+/// Where a touch of strands is just passing the edge of a line, the arc between the two has no length and no state of its own:
+/// they are one joint.
+void merge_vanishing(std::vector<ArcRecord>& arcs, std::vector<JointRecord>& contacts,
+                     std::vector<std::pair<int, int>>& where) {
+  constexpr double none = 1e-12;
+  for (std::size_t k = 1; k < contacts.size();) {
+    JointRecord &before = contacts[k - 1], &after = contacts[k];
+    const bool strand = before.strand_force != 0.0 || after.strand_force != 0.0;
+    if (!strand || std::abs(arcs[k].s_end - arcs[k].s_begin) > none) {
+      ++k;
+      continue;
+    }
+    JointRecord& edge = before.kind == JointKind::edge ? before : after;
+    const JointRecord& other = &edge == &before ? after : before;
+    const Vector3d jump = arcs[k - 1].n.rightCols<1>() - arcs[k + 1].n.col(0);
+    edge.force = (jump - other.strand_force * other.normal).dot(edge.normal);
+    edge.strand_force = other.strand_force;
+    const auto place = static_cast<std::ptrdiff_t>(k);
+    where[k - 1] = where[&other == &after ? k : k - 1];
+    where.erase(where.begin() + place);
+    contacts[k - 1] = JointRecord(edge);
+    contacts.erase(contacts.begin() + place);
+    arcs.erase(arcs.begin() + place);
+  }
 }
 
 /// Arcs and joints of the whole rod from −L/2 to L/2.
@@ -100,15 +141,23 @@ void assemble(const chain::Profile& shape, const chain::Profile& whole, const To
   std::vector<ArcRecord> arcs;
   for (const Piece& piece : whole.pieces) arcs.push_back(arc_record(piece));
   std::vector<JointRecord> contacts;
+  std::vector<std::pair<int, int>> where;
+  const auto add = [&](const chain::Contact& c, int side) {
+    contacts.push_back(contact_record(c, side));
+    where.emplace_back(c.joint, side);
+  };
   if (topology.half)
     for (std::size_t j = shape.contacts.size(); j-- > 0;)
-      if (!(topology.mid_touch && j == 0)) contacts.push_back(contact_record(shape.contacts[j], -1.0));
-  for (const chain::Contact& c : shape.contacts) contacts.push_back(contact_record(c, 1.0));
+      if (!(topology.mid_touch && j == 0)) add(shape.contacts[j], -1);
+  for (const chain::Contact& c : shape.contacts) add(c, 1);
   if (topology.half && !topology.mid_touch) {  // the mid-point is no joint: its stretch spans both halves
     const std::size_t middle = topology.stretches.size();
     append(arcs[middle - 1], arcs[middle]);
     arcs.erase(arcs.begin() + static_cast<std::ptrdiff_t>(middle));
   }
+  merge_vanishing(arcs, contacts, where);
+  name_partners(topology.couplings(), where, contacts);
+  for (const JointRecord& contact : contacts) out.self_force += 0.5 * contact.strand_force;
   out.joints.push_back(end_record(arcs.front(), false, infinite));
   out.joints.insert(out.joints.end(), contacts.begin(), contacts.end());
   out.joints.push_back(end_record(arcs.back(), true, infinite));
@@ -133,19 +182,25 @@ void measure_shape(const chain::Profile& shape, Solution& out) {
 
 }  // namespace
 
+Vector3d strand_direction(const Solution& solution, const JointRecord& joint) {
+  return (joint.r - solution.joints.at(static_cast<std::size_t>(joint.partner)).r).normalized();
+}
+
 void measure_invariants(Solution& out, const chain::RodKind& kind) {
-  double h0 = 0.0, torque0 = 0.0;
+  double h0 = 0.0, torque0 = 0.0, strands = 0.0;  // strands: torque that others have taken up to here
   Vector3d balance = Vector3d::Zero();
   bool first = true;
   for (std::size_t i = 0; i < out.arcs.size(); ++i) {
     const ArcRecord& arc = out.arcs[i];
     first = first || out.joints[i].holding != 0.0;  // across it they change
+    if (const JointRecord& joint = out.joints[i]; joint.partner >= 0)
+      strands += joint.strand_force * joint.r.cross(strand_direction(out, joint))(2);
     for (Eigen::Index k = 0; k < arc.s.size(); ++k) {
       const Eigen::Matrix3d d = rod::directors(arc.q.col(k));
       const Vector3d m = d.transpose() * arc.m.col(k);
       const double h =
           0.5 * m.dot(m.cwiseQuotient(kind.stiffness)) + m.dot(kind.natural) + arc.n.col(k).dot(d.col(2));
-      const double torque = (arc.m.col(k) + arc.r.col(k).cross(arc.n.col(k)))(2);
+      const double torque = (arc.m.col(k) + arc.r.col(k).cross(arc.n.col(k)))(2) + strands;
       if (first) h0 = h, torque0 = torque, first = false;
       out.invariants.hamiltonian_drift = std::max(out.invariants.hamiltonian_drift, std::abs(h - h0));
       if (!kind.strut)
@@ -196,7 +251,8 @@ Solution record(RodProblem& problem, const Vector& x, const Vector& p) {
   for (int j = 0; j < problem.chain().joint_count(); ++j)
     if (const double share = problem.chain().slide_share(j); share > 0.0 && problem.chain().holds_slide())
       out.joints[j].holding = -share * problem.chain().holding_force(x);
-  out.R_tot = chain::total_contact_force(shape, topology);
+  for (const ArcRecord& arc : out.arcs) out.R_tot += arc.force;
+  for (const JointRecord& joint : out.joints) out.R_tot += joint.force;
   if (scene.has_cylinder) {
     if (scene.friction) out.F0 = *scene.friction * out.R_tot;
   } else {

@@ -130,6 +130,36 @@ double length_of(Entry& entry, int link) {
   return entry.problem->chain().length(entry.x, entry.problem->loads(entry.p), link);
 }
 
+bool beside_strand(const RodProblem& problem, int link) {
+  const std::vector<chain::Coupling> strands = problem.topology().couplings();
+  return std::any_of(strands.begin(), strands.end(), [&](const chain::Coupling& c) {
+    return c.first == link || c.first == link + 1 || c.second == link || c.second == link + 1;
+  });
+}
+
+double entered_beside_strand(const RodProblem& problem) {
+  return 2.0 * least_beside_strand * problem.rod().unit_length;
+}
+
+/// The event at which an arc beside a touch of strands has no length: p(0) and the state are smooth in its length.
+std::optional<continuation::Transition::Located> located_vanishing(Entry here, int link) {
+  constexpr int levels = 4;
+  const double shortest = 2.0 * least_beside_strand * here.problem->rod().unit_length;
+  here.problem = std::static_pointer_cast<RodProblem>(here.problem->clone());
+  std::array<double, levels> values;
+  std::array<Vector, levels> states;
+  for (int k = 0; k < levels; ++k) {
+    if (!tried([&] { return solve_at_length(*here.problem, here.x, here.p, link, shortest * (1 << k)); }))
+      return std::nullopt;
+    values[k] = here.p(0);
+    states[k] = here.x;
+  }
+  const Limit<double> limit = limit_at_zero(values);
+  here.p(0) = limit.value;
+  return continuation::Transition::Located{here.problem, limit_at_zero(states).value, here.p,
+                                           std::abs(limit.value - limit.before)};
+}
+
 /// The links that open, and the gaps that are short still: their edges answer steeply to all that is wrong in a guess.
 std::vector<int> with_short_gaps(Entry& entry, std::vector<int> links) {
   constexpr double short_gap = 0.5;
@@ -147,17 +177,6 @@ double to_the_end(RodProblem& problem, const Vector& x, const Vector& p, int lin
   Vector longer = x, beside = p;
   const bool solved = tried([&] { return solve_at_length(problem, longer, beside, link, 2.0 * length); });
   return solved ? std::abs(beside(0) - p(0)) : -1.0;
-}
-
-bool beside_strand(const RodProblem& problem, int link) {
-  const std::vector<chain::Coupling> strands = problem.topology().couplings();
-  return std::any_of(strands.begin(), strands.end(), [&](const chain::Coupling& c) {
-    return c.first == link || c.first == link + 1 || c.second == link || c.second == link + 1;
-  });
-}
-
-double entered_beside_strand(const RodProblem& problem) {
-  return 2.0 * least_beside_strand * problem.rod().unit_length;
 }
 
 /// Brings an opened arc to the length that it is entered with, as far as the contacts hold: longer ones lie further from
@@ -205,11 +224,7 @@ bool bring_to(Entry& entry, int link, double p) {
 /// @param as_long  as it is at p(0) = p; else brought to the length that arcs are entered with
 std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, int depth, bool as_long,
                                   double p) {
-  const bool dbg = getenv("DBGT");
-  auto show = [&](const char* what, Entry& e) { if (!dbg) return; fprintf(stderr,"   [%d] %s p %.10g res %.3g lengths", depth, what, e.p(0), e.problem->residual_norm(e.problem->residual(e.x,e.p))); for(int i=0;i<e.problem->chain().link_count();++i) fprintf(stderr," %.5g",length_of(e,i)); for (std::size_t k=0;k<e.problem->chain().couplings().size();++k) fprintf(stderr," lam %.5g", e.problem->chain().strand_force(e.x,k)); for(int i=0;i<e.problem->chain().link_count();++i) { auto n=e.problem->chain().force(e.x,e.problem->loads(e.p),i); fprintf(stderr," n%d",i); for(int q=0;q<n.size();++q) fprintf(stderr," %.4g",n(q)); } fprintf(stderr,"\n"); };
-  show("guess",entry);
-  if (!settle_shape(*entry.problem, entry.x, entry.p, with_short_gaps(entry, opened))) { show("settle failed",entry); return std::nullopt; }
-  show("settled",entry);
+  if (!settle_shape(*entry.problem, entry.x, entry.p, with_short_gaps(entry, opened))) return std::nullopt;
   // What only redraws a state leaves all else where it is at the same load; at another, gaps that are open already move far.
   Entry here = entry;
   here.p(0) = p;
@@ -222,8 +237,7 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, i
     return in_place ? solve_in_place(*entry.problem, entry.x, entry.p)
                     : solve_at_length(*entry.problem, entry.x, entry.p, opened.front(), length);
   };
-  if (!in_place && !solve()) { show("solve failed",entry); return std::nullopt; }
-  show("solved",entry);
+  if (!in_place && !solve()) return std::nullopt;
   // What is admissible is judged on a mesh that is fine enough: events that only a finer one shows would be passed unseen.
   if (const std::optional<Vector> finer = entry.problem->adapt(entry.x, entry.p)) {
     entry.x = *finer;
@@ -330,11 +344,11 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
     if (!first) first = transition;
     const bool shrinks = event.kind == Kind::length && straight_line(*this, event.place) >= 0;
     std::optional<Entry> found = enter(entry, event, next, shrinks, transition.precision);
-    if (getenv("DBGT")) { fprintf(stderr,"TRANS %s at p %.12g -> %s found %d\n",event.name().c_str(),p(0),next.topology.text().c_str(),(int)found.has_value());
-      if (found) { fprintf(stderr,"  at p %.12g:",found->p(0)); for (auto& e: contact_events(found->problem->profile(found->x,found->p),found->problem->topology())) fprintf(stderr," %s %.4g;",e.name().c_str(),e.value); fprintf(stderr,"\n lengths"); for(int i=0;i<found->problem->chain().link_count();++i) fprintf(stderr," %.5g",length_of(*found,i)); fprintf(stderr,"\n"); } }
     if (!found || !tried([&] { return found->problem->settle(found->x, found->p), true; })) continue;
     const auto here = std::static_pointer_cast<RodProblem>(clone());
-    if (shrinks)
+    if (event.kind == Kind::length && transition.precision < 0.0 && beside_strand(*this, event.place))
+      transition.located = located_vanishing({here, x, p}, event.place);
+    else if (shrinks)
       transition.located = located_onset({here, x, p}, event.place, *found);
     else if (event.kind == Kind::curvature && next.opened.size() == 1 &&
              straight_line(*found->problem, next.opened.front()) >= 0)

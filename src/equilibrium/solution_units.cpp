@@ -21,6 +21,7 @@ void multiply(JointRecord& joint, const scene::Units& units) {
   joint.r *= units.length;
   joint.force *= units.force;
   joint.holding *= units.force;
+  joint.strand_force *= units.force;
 }
 
 }  // namespace
@@ -30,6 +31,7 @@ void multiply(Solution& solution, const scene::Units& units) {
   for (JointRecord& joint : solution.joints) multiply(joint, units);
   solution.T *= units.force;
   solution.R_tot *= units.force;
+  solution.self_force *= units.force;
   if (solution.F0) *solution.F0 *= units.force;
   solution.end_force *= units.force;
   solution.end_moment *= units.moment;

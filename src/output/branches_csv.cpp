@@ -76,6 +76,7 @@ BranchRow read_row(CellReader cells, bool has_cylinder, bool has_extra) {
   row.z_span = cells.real();
   row.energy = cells.real();
   row.self_distance = cells.optional<double>();
+  row.self_force = cells.real();
   row.index = cells.optional<int>();
   row.eigenvalue_1 = cells.optional<double>();
   row.ds = cells.real();
@@ -129,7 +130,8 @@ std::string csv_header(bool has_cylinder, const std::string& extra_parameter) {
   std::string header = "branch,point,label,type,T,phi,";
   header += has_cylinder ? "R_tot,phi_star," : "end_force,end_moment,shortening,";
   header +=
-      "tilt,z_span,energy,self_distance,index,eigenvalue_1,ds,newton_iterations,error_estimate,topology";
+      "tilt,z_span,energy,self_distance,self_force,index,eigenvalue_1,ds,newton_iterations,error_estimate,"
+      "topology";
   if (!extra_parameter.empty()) header += "," + csv_cell(extra_parameter);
   return header + "\n";
 }
@@ -152,6 +154,7 @@ std::string csv_line(const BranchRow& row, bool has_cylinder, const std::string&
   add(row.z_span);
   add(row.energy);
   add(row.self_distance.value_or(std::nan("")));
+  add(row.self_force);
   line += "," + (row.index ? std::to_string(*row.index) : std::string());
   add(row.eigenvalue_1.value_or(std::nan("")));
   add(row.ds);

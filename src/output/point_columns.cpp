@@ -26,6 +26,7 @@ Table points_table(PointColumns::Points& p) {
        &p.self_distance},
       {"self_s1", "rho", "where, and", &p.self_s1},
       {"self_s2", "rho", "to where", &p.self_s2},
+      {"self_force", "EI/rho^2", "sum of the sizes of the forces between strands", &p.self_force},
       {"end_force", "EI/rho^2", "strut: thrust", &p.end_force},
       {"end_moment", "EI/rho", "strut: axial end moment", &p.end_moment},
       {"shortening", "1", "strut: end shortening / length", &p.shortening},
@@ -96,7 +97,7 @@ Table joints_table(PointColumns::Joints& j) {
   return {
       "joints",
       "places where arcs meet, in order of s: arc k lies between joints k and k+1 of its point",
-      {{"kind", "", "end | touch | edge | infinity", &j.kind},
+      {{"kind", "", "end | touch | edge | infinity | strand", &j.kind},
        {"s", "rho", "material arclength", &j.s},
        {"angle", "rad", "place round the axis, unrolled, 0 at the south pole", &j.angle},
        {"z", "rho", "height", &j.z},
@@ -105,6 +106,8 @@ Table joints_table(PointColumns::Joints& j) {
         "force round the cylinder that holds the rod against sliding along itself, zero at an equilibrium",
         &j.holding},
        {"obstacle", "1", "of a contact: its obstacle's place in the scene from 0; else -1", &j.obstacle},
+       {"partner", "1", "of a contact with another strand: that strand's joint, from 0; else -1", &j.partner},
+       {"strand_force", "EI/rho^2", "size of the force between the two strands", &j.strand_force},
        {"normal", "1", "of a contact: direction of its force on the rod", &j.normal, 3},
        {"r", "rho", "position x, y, z", &j.r, 3}}};
 }

@@ -64,6 +64,8 @@ void append_joint(PointColumns& columns, const JointRecord& joint, double neares
   columns.joints.force.push_back(finite_or(joint.force, 0.0));
   columns.joints.holding.push_back(finite_or(joint.holding, 0.0));
   columns.joints.obstacle.push_back(joint.obstacle);
+  columns.joints.partner.push_back(joint.partner);
+  columns.joints.strand_force.push_back(finite_or(joint.strand_force, 0.0));
   for (const double component : joint.normal) columns.joints.normal.push_back(finite_or(component, 0.0));
   for (const double component : joint.r) columns.joints.r.push_back(finite_or(component, 0.0));
 }
@@ -78,6 +80,8 @@ JointRecord read_joint(const PointColumns& columns, std::size_t row) {
   joint.force = joints.force[row];
   joint.holding = joints.holding[row];
   joint.obstacle = static_cast<int>(joints.obstacle[row]);
+  joint.partner = static_cast<int>(joints.partner[row]);
+  joint.strand_force = joints.strand_force[row];
   joint.normal = block<3>(joints.normal, static_cast<std::int64_t>(row), 1);
   joint.r = block<3>(joints.r, static_cast<std::int64_t>(row), 1);
   return joint;

@@ -30,6 +30,7 @@ BranchRow make_row(const equilibrium::Solution& solution, int branch, int point,
   row.z_span = solution.z_span;
   row.energy = solution.energy;
   row.self_distance = solution.self_distance;
+  row.self_force = solution.self_force;
   if (solution.stability) {
     row.index = solution.stability->index;
     if (!solution.stability->eigenvalues.empty()) row.eigenvalue_1 = solution.stability->eigenvalues.front();

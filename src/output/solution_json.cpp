@@ -23,7 +23,8 @@ namespace {
 constexpr std::pair<JointKind, const char*> joint_names[] = {{JointKind::end, "end"},
                                                              {JointKind::touch, "touch"},
                                                              {JointKind::edge, "edge"},
-                                                             {JointKind::infinity, "infinity"}};
+                                                             {JointKind::infinity, "infinity"},
+                                                             {JointKind::strand, "strand"}};
 }  // namespace
 
 std::string joint_kind_name(JointKind kind) {
@@ -41,6 +42,22 @@ JointKind joint_kind_from_name(const std::string& name) {
 }
 
 namespace {
+
+/// Touches of the rod with itself, each once; "mirror": with its own image under the half-turn.
+ordered_json self_json(const Solution& solution) {
+  constexpr double same = 1e-9;
+  ordered_json list = ordered_json::array();
+  for (std::size_t k = 0; k < solution.joints.size(); ++k) {
+    const JointRecord& joint = solution.joints[k];
+    if (joint.partner <= static_cast<int>(k)) continue;
+    const double other = solution.joints.at(static_cast<std::size_t>(joint.partner)).s;
+    list.push_back({{"kind", std::abs(joint.s + other) < same * (1.0 + other) ? "mirror" : "touch"},
+                    {"s1", finite_or_null(joint.s)},
+                    {"s2", finite_or_null(other)},
+                    {"force", finite_or_null(joint.strand_force)}});
+  }
+  return list;
+}
 
 ordered_json contact_json(const Solution& solution) {
   ordered_json contact;
@@ -67,6 +84,7 @@ ordered_json contact_json(const Solution& solution) {
     }
     if (joint.holding != 0.0) contact["joints"].back()["holding"] = joint.holding;
   }
+  contact["self"] = self_json(solution);
   return contact;
 }
 
@@ -166,7 +184,8 @@ ordered_json to_json(const Solution& solution, const scene::Scene& scene) {
   json["z_span"] = finite_or_null(solution.z_span);
   json["energy"] = finite_or_null(solution.energy);
   json["self_distance"] = finite_or_null(solution.self_distance.value_or(std::nan("")));
-  if (scene.has_obstacles()) json["contact"] = contact_json(solution);
+  json["self_force"] = finite_or_null(solution.self_force);
+  if (scene.has_obstacles() || scene.self_contact) json["contact"] = contact_json(solution);
   json["stability"] = stability_json(solution);
   json["invariants"] = {{"hamiltonian_drift", finite_or_null(solution.invariants.hamiltonian_drift)},
                         {"axial_torque_drift", finite_or_null(solution.invariants.axial_torque_drift)},

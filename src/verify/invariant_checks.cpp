@@ -41,6 +41,27 @@ std::optional<Vector3d> along_all(const std::vector<scene::Wall>& walls) {
   return projected.norm() > none ? Vector3d(projected.normalized()) : Vector3d(basis.col(0));
 }
 
+/// The virial of all contact forces about the axis: with n·t = H − m·u/2 along the rod,
+/// R_tot + 2r Σ F_self = H L − E − T (sum of the projections of the ends' places on their pulls). Of rods without natural
+/// strains. (For long tails H is T, and this the identity of scaling all lengths.)
+void check_scaling(const Solution& solution, const scene::Scene& scene, const Scales& scales,
+                   CheckList& list) {
+  const bool strained = scene.rod.natural_curvature != 0.0 || scene.rod.natural_twist != 0.0;
+  if (!solution.has_cylinder || strained || solution.joints.back().kind == JointKind::infinity) return;
+  for (const auto& joint : solution.joints)
+    if (joint.holding != 0.0) return;
+  const Vector3d right(std::cos(solution.phi / 2), std::sin(solution.phi / 2), 0.0),
+      left(-right.x(), right.y(), 0.0);
+  const ArcRecord &first = solution.arcs.front(), &last = solution.arcs.back();
+  const double length = last.s(last.s.size() - 1) - first.s(0);
+  const double h = Stiffness(scene.rod).hamiltonian(last_section(last));
+  const double ends = last.r.rightCols<1>().dot(right) + first.r.col(0).dot(left);
+  const double pulls = h * length - solution.T * ends, forces = solution.R_tot + 2.0 * scene.rod_radius * solution.self_force;
+  const double size = std::max({scales.force, std::abs(pulls), forces, solution.energy});
+  list.at_most("scaling", std::abs(forces - (pulls - solution.energy)) / size, tight,
+               "R_tot + 2r (forces between strands) against H L - T (projections of the ends) - energy, relative");
+}
+
 }  // namespace
 
 void check_invariants(const Solution& solution, const scene::Scene& scene, const Scales& scales,
@@ -50,16 +71,24 @@ void check_invariants(const Solution& solution, const scene::Scene& scene, const
   Largest free_force;
   // Walls push across e_z and have moments about it: the force along all of them is what is kept, if there is such a way.
   const bool walls = !scene.walls.empty();
+  Vector3d strand_push = Vector3d::Zero();  // of other strands, up to here
+  double strand_torque = 0.0;
   const std::optional<Vector3d> along = walls ? along_all(scene.walls) : Vector3d(Vector3d::UnitZ());
   for (std::size_t k = 0; k < solution.arcs.size(); ++k) {
     const ArcRecord& arc = solution.arcs[k];
     if (solution.joints[k].holding != 0.0)  // a force along the rod changes them
       for (Drift* drift : {&hamiltonian, &torque, &axial_force}) drift->restart();
+    if (const auto& joint = solution.joints[k]; joint.partner >= 0) {
+      const Vector3d push = joint.strand_force * equilibrium::strand_direction(solution, joint);
+      strand_push += push;
+      strand_torque += joint.r.cross(push).z();
+    }
+    if (arc.s_end - arc.s_begin < tight) continue;  // vanishes at an event, and has no section of its own
     for (Eigen::Index i = 0; i < arc.s.size(); ++i) {
       const Section x = sample(arc, i);
       hamiltonian.add(law.hamiltonian(x) / scales.force);
-      torque.add((x.m + x.r.cross(x.n)).z() / scales.force);
-      if (along) axial_force.add(x.n.dot(*along) / scales.force);
+      torque.add(((x.m + x.r.cross(x.n)).z() + strand_torque) / scales.force);
+      if (along) axial_force.add((x.n + strand_push).dot(*along) / scales.force);
       twist.add(x.m.dot(tangent(x)) / scales.moment);
       if (arc.kind == equilibrium::ArcKind::free) free_force.add((x.n - arc.n.col(0)).norm() / scales.force);
     }
@@ -74,6 +103,7 @@ void check_invariants(const Solution& solution, const scene::Scene& scene, const
   const bool isotropic =
       scene.rod.bending_stiffness == scene.rod.bending_stiffness_2 && scene.rod.natural_curvature == 0.0;
   if (isotropic) list.at_most("twist_drift", twist.value(), tight, "range of m·d3, / max(1, sqrt(T))");
+  check_scaling(solution, scene, scales, list);
   if (!solution.has_cylinder || solution.joints.back().kind != JointKind::infinity) return;
   const double at_end = law.hamiltonian(last_section(solution.arcs.back()));
   list.at_most("infinite_tail", std::abs(at_end - solution.T) / scales.force, tight,

@@ -13,13 +13,14 @@ using equilibrium::Solution;
 void check_joints(const Solution& solution, const scene::Scene& scene, const Scales& scales,
                   CheckList& list) {
   const std::vector<Shape> shapes = shapes_of(scene);
-  Largest position, frame, moment, force, surface, tangency, holding;
-  Smallest contact;
+  Largest position, frame, moment, force, surface, tangency, holding, apart, along;
+  Smallest contact, between;
   for (std::size_t k = 0; k < solution.joints.size(); ++k) {
     const JointRecord& joint = solution.joints[k];
     const bool in_contact = joint.kind == JointKind::touch || joint.kind == JointKind::edge;
     holding.add(std::abs(joint.holding) / scales.force);
     if (in_contact) contact.add(joint.force / scales.force);
+    if (joint.partner >= 0) between.add(joint.strand_force / scales.force);
     if (k == 0 || k + 1 == solution.joints.size()) continue;
     const Section before = last_section(solution.arcs[k - 1]), after = first_section(solution.arcs[k]);
     position.add((before.r - after.r).norm());
@@ -35,8 +36,25 @@ void check_joints(const Solution& solution, const scene::Scene& scene, const Sca
       surface.add(shape ? std::abs(shape->gap(after.r)) : NAN);
       tangency.add(std::abs(outward.dot(tangent(after))));
     }
+    if (joint.partner >= 0) {
+      const Vector3d e = equilibrium::strand_direction(solution, joint);
+      const JointRecord& other = solution.joints[static_cast<std::size_t>(joint.partner)];
+      jump += joint.strand_force * e;
+      apart.add(std::abs((joint.r - other.r).norm() - 2.0 * scene.rod_radius));
+      apart.add(std::abs(joint.strand_force - other.strand_force) / scales.force);
+      along.add(std::abs(e.dot(tangent(after))));
+    }
     force.add(jump.norm() / scales.force);
   }
+  if (between.any()) {
+    list.at_least("strand_force", between.value(), -tight, "smallest force between strands, / max(1, T)");
+    list.at_most("strand_contact", apart.value(), tight,
+                 "distance of touching strands against 2 rod.radius, and their forces against each other");
+    list.at_most("strand_tangency", along.value(), tight, "slope to each other of strands that touch");
+  }
+  if (scene.self_contact && solution.self_distance)
+    list.at_least("self_distance", *solution.self_distance - 2.0 * scene.rod_radius, -tight,
+                  "closest approach of the rod to itself less 2 rod.radius");
   list.at_most("joint_position", position.value(), tight,
                "jump of r at joints, and against the joint's own r");
   list.at_most("joint_frame", frame.value(), tight, "jump of q at joints");

@@ -20,7 +20,8 @@ enum class JointKind {
   end,
   touch,
   edge,
-  infinity
+  infinity,
+  strand  ///< touches another strand of the rod, and no obstacle
 };  ///< infinity: start of a closed-form infinite tail's far end
 
 /// One stretch of rod in one contact state, sampled at its mesh nodes.
@@ -53,6 +54,10 @@ struct JointRecord {
   /// Force along the circumference that holds the rod against sliding along itself [EI/ρ²], at the outermost contacts: zero
   /// to rounding at an equilibrium. What is not is no equilibrium, and the certificate fails.
   double holding = 0.0;
+  /// Of a contact with another strand (a touch may have one, too): that strand's joint, its place in Solution::joints, and the
+  /// size of the force between them, along the line between their places.
+  int partner = -1;
+  double strand_force = 0.0;
   Eigen::Vector3d holding_direction() const { return {std::cos(angle), std::sin(angle), 0.0}; }
 };
 
@@ -109,6 +114,7 @@ struct Solution {
   /// Closest approach of the rod to itself, see chain::self_distance [ρ]; empty where it nowhere comes back to itself.
   std::optional<double> self_distance;
   std::array<double, 2> self_s = {0.0, 0.0};  ///< between these places
+  double self_force = 0.0;                    ///< sum of the sizes of the forces between strands [EI/ρ²]
   // struts (no cylinder)
   double end_force = 0.0;   ///< thrust positive
   double end_moment = 0.0;  ///< axial end moment
@@ -124,6 +130,9 @@ struct Solution {
   double seconds_solve = 0.0, seconds_stability = 0.0, seconds_total = 0.0;
   Restart restart;
 };
+
+/// Direction of the force of the other strand at a joint that touches one.
+Eigen::Vector3d strand_direction(const Solution& solution, const JointRecord& joint);
 
 /// The same state in other units: every quantity multiplied by its unit. `restart` stays: it is the solver's own.
 void multiply(Solution& solution, const scene::Units& units);

@@ -31,7 +31,7 @@ struct PointColumns {
         has_stability, index, inertia_index, degenerate, elements, stages, unknowns;
     Integers arc_begin, arc_count, joint_begin, joint_count, eigenvalue_begin, eigenvalue_count, mode_begin,
         mode_count, state_begin, state_count;
-    Reals T, phi, R_tot, F0, self_distance, self_s1, self_s2, phi_star, tilt, z_span, energy, end_force,
+    Reals T, phi, R_tot, F0, self_distance, self_s1, self_s2, phi_star, tilt, z_span, energy, self_force, end_force,
         end_moment, shortening, error_estimate;
     Reals hamiltonian_drift, axial_torque_drift, force_residual, seconds_solve, seconds_stability,
         seconds_total;
@@ -46,8 +46,8 @@ struct PointColumns {
     Reals s, r, q, n, m, p;
   } samples;
   struct Joints {
-    Integers obstacle;
-    Reals s, angle, z, force, holding, r, normal;
+    Integers obstacle, partner;
+    Reals s, angle, z, force, holding, strand_force, r, normal;
     Texts kind;
   } joints;
   struct Modes {

@@ -31,6 +31,7 @@ struct BranchRow {
   double z_span = 0.0;                  ///< [ρ]
   double energy = 0.0;                  ///< [EI/ρ]
   std::optional<double> self_distance;  ///< closest approach of the rod to itself [ρ], where there is one
+  double self_force = 0.0;              ///< sum of the sizes of the forces between strands [EI/ρ²]
   std::optional<int> index;             ///< number of negative eigenvalues, where computed
   std::optional<double> eigenvalue_1;   ///< lowest eigenvalue, where computed
   double ds = 0.0;                      ///< continuation step that led here
@@ -39,6 +40,9 @@ struct BranchRow {
   std::string topology;             ///< e.g. "tail edge line edge tail"
   std::optional<double> parameter;  ///< value of RunOptions::extra_parameter, where there is one
 };
+
+/// Of 2 rod.radius: strands that touch keep that distance to rounding.
+inline constexpr double touching = 1.0 - 1e-9;
 
 /// Row of a solution: everything the solution knows; branch, point, label, type and ds are the caller's.
 BranchRow make_row(const equilibrium::Solution& solution, int branch, int point, std::string label,
