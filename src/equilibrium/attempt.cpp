@@ -14,10 +14,6 @@ using chain::ArcMesh;
 using chain::Stretch;
 using contact::Loads;
 
-namespace {
-
-/// Is the state a solution of the unilateral problem: forces and gaps nonnegative? A force of zero (an event) passes.
-/// A free loop that only grazes the cylinder carries no force at all and is no equilibrium in contact.
 bool contacts_hold(RodProblem& problem, const Vector& x, const Vector& p) {
   for (const ContactEvent& event : contact_events(problem.profile(x, p), problem.topology())) {
     const double short_of = event.kind == ContactEvent::Kind::length ? least_length : 0.0;
@@ -26,8 +22,6 @@ bool contacts_hold(RodProblem& problem, const Vector& x, const Vector& p) {
   constexpr double least_force = 1e-12;  // of R_tot, dimensionless
   return problem.target(problem.chain(), x, problem.loads(p)) > least_force;
 }
-
-}  // namespace
 
 ArcMesh first_mesh(Stretch stretch, const Loads& loads, double length) {
   if (stretch == Stretch::tail)

@@ -26,6 +26,10 @@ std::optional<Started> attempt(const scene::Scene& scene, bool spatial, bool hal
                                const std::vector<std::string>& keys, const Draft& draft,
                                const chain::Profile& profile);
 
+/// Is the state a solution of the unilateral problem: forces and gaps nonnegative? A force of zero (an event) passes.
+/// A free loop that only grazes the cylinder carries no force at all and is no equilibrium in contact.
+bool contacts_hold(RodProblem& problem, const Vector& x, const Vector& p);
+
 /// The state of `scene`, followed from a half-chain state at another value of the one parameter on `from.p`.
 /// @param failure  why it was not reached
 /// @throws NoContact where the rod lifts off on the way

@@ -57,7 +57,9 @@ struct Flat {
 Flat flat_state(const scene::Scene& scene, const std::vector<std::string>& keys) {
   Flat flat;
   try {
-    if (scene.has_cylinder) {
+    if (scene.has_cylinder && scene.strand_radius() > 0.0) {
+      flat.rod = cold_start(scene, true, scene.half_turn(), keys);
+    } else if (scene.has_cylinder) {
       flat.planar = cold_start(scene, false, true, keys);
       flat.rod = lift(*flat.planar->problem, flat.planar->x, flat.planar->p, scene.half_turn());
     } else {
@@ -163,6 +165,8 @@ Equilibria solve_capstan(const scene::Scene& scene, const std::vector<std::strin
   const Vector print = flat.rod ? flat.rod->problem->fingerprint(flat.rod->x, flat.rod->p) : Vector();
   const auto finished = [&](FoundState& best) {
     if (kirchhoff) return finish(best.at, "asked for");
+    if (scene.strand_radius() > 0.0)
+      return finish(best.at, "a rod that touches itself leaves the plane: Kirchhoff rod with its thickness");
     if (flat.index == 0 && half && is(best, print)) return solve_flat(scene, *flat.planar);
     if (!half) return finish(best.at, "the full chain was asked for (model.symmetry = \"none\")");
     if (!flat.rod) return finish(best.at, "there is no flat state in contact: " + flat.why);

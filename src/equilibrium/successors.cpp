@@ -345,6 +345,24 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
   return {};
 }
 
+/// The strand that the image of a joint touches, on a chain where the image of every joint is one, too: a joint that touches
+/// the image of y has its own image touch y.
+/// @param joint  of `next`, on the side that changed
+int image_strand(const Successor& next, int joint) {
+  const auto strand = [&](int j) { return next.topology.seat(j).strand; };
+  const int count = static_cast<int>(next.s.size());
+  int other = -1, image = -1;
+  for (int j = 0; j < count; ++j)
+    if (j != joint && strand(j) == strand(joint)) other = j;
+  if (other < 0 || strand(joint) == 0) return strand(joint);
+  if (next.s[other] * next.s[joint] > 0.0) return strand(joint) + count;  // both on this side: a touch of its own
+  for (int j = 0; j < count; ++j)
+    if (strand(j) != 0 && next.s[j] * next.s[joint] > 0.0 &&
+        (image < 0 || std::abs(next.s[j] + next.s[other]) < std::abs(next.s[image] + next.s[other])))
+      image = j;
+  return strand(image);
+}
+
 /// The same with the change made on both sides of s = 0: the side that changed and its mirror image.
 /// @param links  of the old chain
 Successor mirrored(const Successor& next, bool right_changed, int links) {
@@ -352,7 +370,12 @@ Successor mirrored(const Successor& next, bool right_changed, int links) {
   const int count = static_cast<int>(next.topology.stretches.size());
   const auto bound = [&](int k) { return right_changed ? next.s[k] : -next.s[count - k]; };
   const auto link = [&](int k) { return right_changed ? k : count - 1 - k; };
-  const auto seat = [&](int k) { return next.topology.seat(right_changed ? k : count - k); };
+  const auto seat = [&](int k, bool image) {
+    const int joint = right_changed ? k : count - k;
+    chain::Seat out = next.topology.seat(joint);
+    if (image) out.strand = image_strand(next, joint);
+    return out;
+  };
   constexpr double middle = 1e-9;
   int first = 0;  // first bound beyond the middle
   while (bound(first) <= middle) ++first;
@@ -369,7 +392,7 @@ Successor mirrored(const Successor& next, bool right_changed, int links) {
   for (int k = count; k-- > first;) add(k, true);
   const auto add_bound = [&](double s, int k) {
     out.s.push_back(s);
-    if (!next.topology.on.empty()) out.topology.on.push_back(seat(k));
+    if (!next.topology.on.empty()) out.topology.on.push_back(seat(k, s < 0.0));
   };
   for (int k = count; k >= first; --k) add_bound(-bound(k), k);
   if (touches) {

@@ -71,6 +71,8 @@ Started thicken(const Started& flat, const scene::Scene& scene, bool half, const
   if (used < 0) throw NoEquilibrium("Newton did not converge on a rod with next to no thickness from the thin one");
   start->x = start->problem->refine(start->x, start->p);
   start->newton_iterations += used;
+  if (!contacts_hold(*start->problem, start->x, start->p))
+    throw NoEquilibrium("pressed apart where they cross, the strands of the flat rod pull at each other");
   std::string failure;
   if (auto reached = reach(*start, scene, scene.rod_radius, half, keys, failure)) return *reached;
   throw NoEquilibrium("from the thin rod no thick one was reached: " + failure);

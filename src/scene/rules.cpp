@@ -80,6 +80,18 @@ void check_strut(const Document& document, const Scene& scene) {
   if (scene.rod.infinite()) forbid(document, "rod.length", "must be finite without [cylinder]");
 }
 
+void check_self_contact(const Document& document, const Scene& scene) {
+  if (!scene.self_contact) return;
+  if (!(scene.rod_radius > 0.0))
+    throw missing(document, "rod.radius", "must be > 0 with rod.self_contact = true");
+  if (scene.rod.infinite())
+    forbid(document, "rod.self_contact",
+           "must be false with rod.length = \"inf\": endless tails in closed form know no other strand");
+  if (scene.model.kind == ModelKind::planar || scene.model.kind == ModelKind::closed_form)
+    forbid(document, "rod.self_contact",
+           "must be false with this model.kind: a rod that touches itself leaves the plane");
+}
+
 void check_continuation(const Document& document, const Scene& scene, bool restart) {
   const Continuation& c = *scene.continuation;
   const bool of_capstan = c.parameter == "load.tension" || c.parameter == "load.angle";
@@ -120,6 +132,7 @@ void check_rules(const Document& document, const Scene& scene, bool restart) {
   else
     check_strut(document, scene);
   check_ends(document, scene);
+  check_self_contact(document, scene);
   if (scene.continuation) check_continuation(document, scene, restart);
   for (const char c : {'/', '\0'})
     if (scene.name.find(c) != std::string::npos || scene.name.empty() || scene.name.front() == '.')
