@@ -238,7 +238,7 @@ Contact obstacle_contact(const Chain& chain, const Topology& topology, const Rod
   c.obstacle = topology.obstacle(j);
   c.angle = joint.surface()->turn(joint.on_surface(chain.coordinates(x, j)));
   c.r = here.r;
-  c.normal = here.normal;
+  c.normal = c.surface_normal = here.normal;
   const Piece& after = pieces[j];
   const Vector3d n_before = j > 0 ? Vector3d(pieces[j - 1].n.rightCols<1>()) : reflected(after.n.col(0));
   c.force = contact_force(n_before, after.n.col(0), c.normal);
@@ -275,6 +275,7 @@ Contact strand_contact(const Chain& chain, const Topology& topology, const RodKi
     const Vector3d jump = pieces[j - 1].n.rightCols<1>() - pieces[j].n.col(0);
     c.reaction = (jump - c.force * c.normal).dot(surface->normal(c.r));
     c.obstacle = topology.obstacle(j);
+    c.surface_normal = surface->normal(c.r);
   }
   const Vector3d first = curvature_of(rod, pieces[with.first], 0),
                  second = image.cwiseProduct(curvature_of(rod, pieces[with.second], 0));

@@ -76,6 +76,7 @@ std::unique_ptr<Joint> contact_joint(const RodKind& rod, Stretch left, Stretch r
     if (rod.spatial) return std::make_unique<spatial::Touch>(rod.obstacles.pointer(obstacle));
     return std::make_unique<planar::Touch>();
   }
+  if (seat.strand != 0) throw std::invalid_argument("no strand presses on the edge of a line contact");
   const Side line = left == Stretch::line ? Side::left : Side::right;
   if (rod.spatial)
     return std::make_unique<spatial::Edge>(line, rod.bending_stiffness, rod.obstacles.pointer(obstacle),

@@ -162,6 +162,16 @@ ContactEvent length_event(const Profile& profile, int i, bool begins_at_mid) {
   return event;
 }
 
+/// A force F off the obstacle on a line that is pressed by p lifts it over a length 3F/4p to both sides, in which the moment
+/// changes by 3F²/32p: the line carries that, as it carries short gaps, up to F²/p = `carried_under_strand`.
+ContactEvent reaction_event(const Profile& profile, const Contact& c) {
+  const double pressure = profile.pieces[c.joint].p(0), reaction = *c.reaction;
+  ContactEvent event{Kind::reaction, c.joint, 1.0 + reaction * std::abs(reaction) / (pressure * carried_under_strand),
+                     c.s};
+  event.redrawn = true;
+  return event;
+}
+
 /// Curvature at which a touch gives way, see `least_curvature`.
 double least_curvature_at(const Profile& profile, const Contact& c) {
   if (c.coupling >= 0 || profile.obstacles[c.obstacle].curvature() != 0.0) return 0.0;
@@ -204,7 +214,7 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
       seen.push_back(c.coupling);
     }
     events.push_back({Kind::force, c.joint, c.force, c.s});
-    if (c.reaction) events.push_back({Kind::reaction, c.joint, *c.reaction, c.s});
+    if (c.reaction) events.push_back(reaction_event(profile, c));
     if (c.edge) continue;
     const double bend = c.gap_curvature - least_curvature_at(profile, c);
     events.push_back({Kind::curvature, c.joint, about_to_meet(profile, c) ? 1.0 : bend, c.s});

@@ -91,7 +91,8 @@ JointRecord contact_record(const chain::Contact& c, double sign) {
   joint.obstacle = c.obstacle;
   const Vector3d image(sign, 1.0, sign);  // under the half-turn, for sign = −1
   joint.r = image.cwiseProduct(c.r);
-  joint.normal = image.cwiseProduct(c.normal);
+  if (c.coupling >= 0) joint.strand_normal = image.cwiseProduct(c.normal);
+  joint.normal = image.cwiseProduct(c.surface_normal);
   return joint;
 }
 
@@ -109,6 +110,22 @@ void name_partners(const std::vector<chain::Coupling>& couplings,
     }
 }
 
+/// Where two touches are just passing each other the arc between them has no length, and its state is that of its neighbours:
+/// what of the strands' forces the obstacle takes is shared by the two.
+void fill_between_touches(std::vector<ArcRecord>& arcs, std::size_t k, JointRecord& before, JointRecord& after) {
+  const ArcRecord &left = arcs[k - 1], &right = arcs[k + 1];
+  ArcRecord& arc = arcs[k];
+  const Vector3d strand = before.strand_force * before.strand_normal, jump = left.n.rightCols<1>() - right.n.col(0);
+  const Vector3d rest = jump - strand - after.strand_force * after.strand_normal;
+  if (before.obstacle >= 0) before.force = after.force = 0.5 * rest.dot(before.normal);
+  arc.r.colwise() = Vector3d(left.r.rightCols<1>());
+  arc.q.colwise() = Vector4d(left.q.rightCols<1>());
+  arc.m.colwise() = Vector3d(left.m.rightCols<1>());
+  arc.n.colwise() = Vector3d(left.n.rightCols<1>() - strand - before.force * before.normal);
+  arc.p.setConstant(left.p(left.p.size() - 1));
+  arc.force = 0.0;
+}
+
 /// Where a touch of strands is just passing the edge of a line, the arc between the two has no length and no state of its own:
 /// they are one joint.
 void merge_vanishing(std::vector<ArcRecord>& arcs, std::vector<JointRecord>& contacts,
@@ -116,16 +133,20 @@ void merge_vanishing(std::vector<ArcRecord>& arcs, std::vector<JointRecord>& con
   constexpr double none = 1e-12;
   for (std::size_t k = 1; k < contacts.size();) {
     JointRecord &before = contacts[k - 1], &after = contacts[k];
-    const bool strand = before.strand_force != 0.0 || after.strand_force != 0.0;
-    if (!strand || std::abs(arcs[k].s_end - arcs[k].s_begin) > none) {
+    const bool vanishes = std::abs(arcs[k].s_end - arcs[k].s_begin) < none;
+    if (vanishes && before.strand_force != 0.0 && after.strand_force != 0.0)
+      fill_between_touches(arcs, k, before, after);
+    const bool strand = (before.strand_force != 0.0) != (after.strand_force != 0.0);
+    if (!strand || !vanishes) {
       ++k;
       continue;
     }
     JointRecord& edge = before.kind == JointKind::edge ? before : after;
     const JointRecord& other = &edge == &before ? after : before;
     const Vector3d jump = arcs[k - 1].n.rightCols<1>() - arcs[k + 1].n.col(0);
-    edge.force = (jump - other.strand_force * other.normal).dot(edge.normal);
+    edge.force = (jump - other.strand_force * other.strand_normal).dot(edge.normal);
     edge.strand_force = other.strand_force;
+    edge.strand_normal = other.strand_normal;
     const auto place = static_cast<std::ptrdiff_t>(k);
     where[k - 1] = where[&other == &after ? k : k - 1];
     where.erase(where.begin() + place);

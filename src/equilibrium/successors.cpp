@@ -100,8 +100,32 @@ std::optional<Successor> strand_passes_edge(int link, Strip strip) {
   return strip.successor();
 }
 
+/// The other joint of a touch between strands; j itself where it touches its own image.
+int partner(const Strip& strip, int j) {
+  const int strand = std::abs(strip.on[j].strand);
+  for (int k = 0; k < static_cast<int>(strip.on.size()); ++k)
+    if (k != j && std::abs(strip.on[k].strand) == strand) return k;
+  return j;
+}
+
+/// Two touches with different strands pass each other along the rod; on a half chain one may pass its own image at s = 0,
+/// and is then pressed on by the image of what pressed on it.
+std::optional<Successor> touches_pass(int link, Strip strip) {
+  const auto strand = [&](int joint) { return std::abs(strip.on[joint].strand); };
+  if (strip.starts_at_mid(link)) {
+    if (strip.mid_touch || strand(1) == 0 || partner(strip, 1) == 1) return std::nullopt;
+    strip.on[1].strand = -strip.on[1].strand;
+  } else {
+    if (strand(link) == 0 || strand(link + 1) == 0 || strand(link) == strand(link + 1)) return std::nullopt;
+    std::swap(strip.on[link].strand, strip.on[link + 1].strand);
+  }
+  strip.parts[link].fresh = true;
+  return strip.successor();
+}
+
 std::vector<Successor> after_length(int link, const Strip& strip) {
   std::vector<Successor> out;
+  if (const auto passed = touches_pass(link, strip)) return {*passed};
   if (const auto passed = strand_passes_edge(link, strip)) return {*passed};
   // In long helices lines shrink to nothing together, at distances that differ by less than rounding.
   Strip together = strip;
@@ -202,14 +226,6 @@ std::vector<Successor> after_graze(const ContactEvent& event, Strip strip) {
   return {strip.successor()};
 }
 
-/// The other joint of a touch between strands; j itself where it touches its own image.
-int partner(const Strip& strip, int j) {
-  const int strand = std::abs(strip.on[j].strand);
-  for (int k = 0; k < static_cast<int>(strip.on.size()); ++k)
-    if (k != j && std::abs(strip.on[k].strand) == strand) return k;
-  return j;
-}
-
 int new_strand(const Strip& strip) {
   int most = 0;
   for (const chain::Seat& seat : strip.on) most = std::max(most, std::abs(seat.strand));
@@ -226,10 +242,15 @@ std::vector<Successor> strands_part(int j, Strip strip) {
   return {strip.successor()};
 }
 
-/// Cuts a free arc at a touch with another strand. @returns the joint
+/// Cuts an arc at a touch with another strand. @returns the joint
 int cut(Strip& strip, double s, chain::Seat seat) {
   int i = 0;
   while (i + 1 < static_cast<int>(strip.parts.size()) && s > strip.s[i + 1]) ++i;
+  if (strip.parts[i].kind == Stretch::line) {
+    seat.obstacle = strip.on[i].obstacle;
+    strip.split(i, s, Stretch::line, Stretch::line, seat);
+    return i + 1;
+  }
   const bool left_tail = !strip.half && i == 0, alone = strip.parts.size() == 1;
   const bool right_tail = strip.parts[i].kind == Stretch::tail && (!left_tail || alone);
   strip.split(i, s, left_tail ? Stretch::tail : Stretch::gap, right_tail ? Stretch::tail : Stretch::gap, seat);
@@ -239,9 +260,8 @@ int cut(Strip& strip, double s, chain::Seat seat) {
 /// A strand that lies on an obstacle where another presses on it lifts off there: the line ends before and begins anew
 /// behind, and between the other carries it alone.
 std::vector<Successor> strand_lifts(int j, Strip strip) {
-  constexpr double length = 0.05;
+  const double s = strip.s[j], length = std::min({0.05, 0.2 * (s - strip.s[j - 1]), 0.2 * (strip.s[j + 1] - s)});
   const chain::Seat seat = strip.on[j];
-  const double s = strip.s[j];
   strip.split(j, s + length, Stretch::gap, Stretch::line);
   strip.split(j - 1, s - length, Stretch::line, Stretch::gap);
   strip.on[j] = strip.on[j + 2] = {seat.obstacle, 0};
@@ -270,7 +290,10 @@ std::vector<Successor> strands_split(const ContactEvent& event, const Strip& str
     const double length = part * profile.unit_length;
     Strip split = strip;
     const auto widen = [&](int joint, int before, int after) {
-      split.split(joint, strip.s[joint] + 0.5 * length, Stretch::gap, split.parts[joint].kind);
+      const bool on_line = is_line(split, joint - 1) && is_line(split, joint);
+      split.split(joint, strip.s[joint] + 0.5 * length, on_line ? Stretch::line : Stretch::gap,
+                  split.parts[joint].kind);
+      split.on[joint + 1] = split.on[joint];
       split.s[joint] -= 0.5 * length;
       split.on[joint].strand = before;
       split.on[joint + 1].strand = after;

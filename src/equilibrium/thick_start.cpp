@@ -27,7 +27,41 @@ std::vector<double> crossings(const chain::Profile& shape) {
   return out;
 }
 
-/// The flat rod with its strands pressed apart by hardly anything: where they cross one passes over the other.
+/// A touch between strands to be: a place on the half rod, and a mark of what it touches (chain::Seat).
+struct Crossing {
+  double s;
+  int strand;
+};
+
+/// Where the turns of a coil lie on each other each tail touches the strand that it lies over, a turn further in: it has left
+/// the cylinder by then, for turns of one inclination keep their distance. At `radius` next to nothing it has hardly.
+std::vector<Crossing> overlaps(const chain::Profile& shape, double radius) {
+  std::vector<Crossing> out;
+  for (const chain::Piece& piece : shape.pieces) {
+    if (piece.stretch == Stretch::line) continue;
+    for (Eigen::Index k = 0; k < piece.s.size(); ++k) {
+      if (piece.r.col(k).head<2>().norm() - 1.0 < radius) continue;
+      const double under = piece.angle(k) - 2.0 * M_PI;  // on the circle arclength is angle
+      if (std::abs(under) > shape.pieces.front().s.tail<1>()(0)) break;
+      out.push_back({std::abs(under), under > 0.0 ? 1 : -1});
+      out.push_back({piece.s(k), 1});
+      return out;
+    }
+  }
+  return out;
+}
+
+std::vector<Crossing> touches_of(const chain::Profile& shape, double radius) {
+  const chain::Piece& middle = shape.pieces.front();
+  constexpr double overlapping = M_PI;  // of half the coil
+  if (middle.stretch == Stretch::line && middle.s.tail<1>()(0) > overlapping) return overlaps(shape, radius);
+  std::vector<Crossing> out;
+  for (const double s : crossings(shape)) out.push_back({s, static_cast<int>(out.size()) + 1});
+  return out;
+}
+
+/// The flat rod with its strands pressed apart by hardly anything: where they cross one passes over the other, where turns
+/// lie on each other they lie side by side.
 std::optional<Started> pressed_apart(const Started& flat, double radius) {
   const chain::Profile shape = flat.problem->profile(flat.x, flat.p);
   chain::Topology topology = flat.problem->topology();
@@ -35,28 +69,30 @@ std::optional<Started> pressed_apart(const Started& flat, double radius) {
   std::vector<double> s = flat.problem->joint_places(flat.x, flat.p, shape);
   const contact::Loads loads = flat.problem->loads(flat.p);
   topology.on.resize(topology.stretches.size() + 1);
-  int strand = 0;
-  for (const double at : crossings(shape)) {
+  const std::vector<Crossing> touches = touches_of(shape, radius);
+  if (touches.empty()) return std::nullopt;
+  for (const Crossing& touch : touches) {
     std::size_t i = 0;
-    while (i + 1 < topology.stretches.size() && at > s[i + 1]) ++i;
+    while (i + 1 < topology.stretches.size() && touch.s > s[i + 1]) ++i;
     const auto place = [](auto& list, std::size_t k) { return list.begin() + static_cast<std::ptrdiff_t>(k); };
     const Stretch kind = topology.stretches[i];
-    topology.stretches[i] = Stretch::gap;
+    if (kind != Stretch::line) topology.stretches[i] = Stretch::gap;
     topology.stretches.insert(place(topology.stretches, i + 1), kind);
-    topology.on.insert(place(topology.on, i + 1), Seat{0, ++strand});
-    meshes[i] = first_mesh(Stretch::gap, loads, at - s[i]);
-    meshes.insert(place(meshes, i + 1), first_mesh(kind, loads, s[i + 1] - at));
-    s.insert(place(s, i + 1), at);
+    topology.on.insert(place(topology.on, i + 1), Seat{0, touch.strand});
+    meshes[i] = first_mesh(topology.stretches[i], loads, touch.s - s[i]);
+    meshes.insert(place(meshes, i + 1), first_mesh(kind, loads, s[i + 1] - touch.s));
+    s.insert(place(s, i + 1), touch.s);
   }
-  if (strand == 0) return std::nullopt;
   scene::Scene scene = flat.problem->scene_at(flat.p);
   scene.self_contact = true;
   scene.rod_radius = radius;
   choose_tails(meshes, topology, flat.problem->rod(), loads, s);
-  auto problem = std::make_shared<RodProblem>(scene, true, topology, meshes, std::vector<std::string>{"rod.radius"});
+  auto problem =
+      std::make_shared<RodProblem>(scene, true, topology, meshes, std::vector<std::string>{"rod.radius"});
   chain::Profile lifted = shape;
   for (chain::Piece& piece : lifted.pieces)
-    if (piece.stretch != Stretch::line) piece.r.row(2).array() += radius;
+    for (Eigen::Index k = 0; k < piece.s.size(); ++k)
+      piece.r(2, k) += radius * std::min(piece.angle(k), 0.5 * loads.angle) / M_PI;
   const Vector x = chain::guess_state(problem->chain(), topology, problem->rod(), lifted, s);
   return Started{problem, x, problem->parameters(), flat.newton_iterations};
 }
@@ -64,8 +100,9 @@ std::optional<Started> pressed_apart(const Started& flat, double radius) {
 }  // namespace
 
 Started thicken(const Started& flat, const scene::Scene& scene, bool half, const std::vector<std::string>& keys) {
-  constexpr double thin = 1e-3;  // of the radius
-  std::optional<Started> start = pressed_apart(flat, thin * scene.rod_radius);
+  // Turns that lie on each other part by so little that a thinner rod's edges would be lost in rounding.
+  constexpr double thin = 0.01;
+  std::optional<Started> start = pressed_apart(flat, std::min(thin, scene.rod_radius));
   if (!start) return flat;
   const int used = start->problem->polish(start->x, start->p);
   if (used < 0) throw NoEquilibrium("Newton did not converge on a rod with next to no thickness from the thin one");

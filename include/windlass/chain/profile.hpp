@@ -33,7 +33,8 @@ struct Contact {
   int coupling = -1;   ///< of the chain's couplings, with another strand
   bool edge = false;
   double s = 0.0, angle = 0.0, z = 0.0;  ///< angle: unrolled, round e_z
-  Eigen::Vector3d r, normal;             ///< outward
+  Eigen::Vector3d r, normal;             ///< outward; of two strands: away from the other
+  Eigen::Vector3d surface_normal = Eigen::Vector3d::Zero();  ///< of the obstacle, outward
   double force = 0.0;                    ///< outward on the rod; >= 0 where the contact holds
   /// g'' at a touch, >= 0; of two strands the least curvature of their distance as either place moves.
   double gap_curvature = 0.0;

@@ -19,7 +19,7 @@
 /// | curvature | g'' at a touch, on a plane less `least_curvature` | the touch flattens into a line, or comes apart into two |
 /// | graze | least gap inside a free arc, of each obstacle | a new touch |
 /// | approach | least distance of two strands less 2r, of every pair of links | a new touch of the two |
-/// | reaction | force of the obstacle under a strand that another presses on | the strand lifts there |
+/// | reaction | force of the obstacle under a strand that another presses on, and what the line carries of it | it lifts |
 /// | buckling | margin of a line without pressure against its own buckling | it bows off the obstacle between two touches |
 ///
 /// **A gap that has just opened is carried by its line.** Where the pressure p of a line contact is negative, the rod lifts: a
@@ -60,6 +60,10 @@ inline constexpr double gap_inside = 2.23606797749978969641, gap_beside_touch = 
 /// height of the gap is then below 1e-11; energy and R_tot, which see the square of what the line does wrong, change by less
 /// than 1e-9, the moment at a touch by 1e-7.
 inline constexpr double carried_inside = 2.1e-10, carried_beside_touch = 5.8e-6;
+
+/// The same of the part of a strand's force that is normal to an obstacle, away from it, over the pressure beside it: F²/p
+/// [EI/ρ]. Two strands on a cylinder that are not parallel to its sections push each other a little off it.
+inline constexpr double carried_under_strand = 1e-6;
 
 struct ContactEvent {
   enum class Kind { pressure, suction, length, force, curvature, graze, buckling, approach, reaction };
