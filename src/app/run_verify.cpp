@@ -26,7 +26,8 @@ int run_verify(const RunRequest& request) {
     report["points"].push_back({{"name", name}, {"certificate", verify::to_json(certificate)}});
     report["points"].back()["self_distance"] =
         output::finite_or_null(solution.self_distance.value_or(std::nan("")));
-    too_close += solution.self_distance && *solution.self_distance < output::touching * 2.0 * scene.rod_radius;
+    too_close +=
+        solution.self_distance && *solution.self_distance < output::touching * 2.0 * scene.rod_radius;
     if (certificate.passed()) continue;
     ++failed;
     if (!request.common.json)

@@ -81,7 +81,8 @@ void list_keys() {
   fmt::print("{:<26} {:<19} {:<13} {}\n", "key", "value", "default", "meaning");
   const auto print = [](const scene::Key& key) {
     fmt::print("{:<26} {:<19} {:<13} {}", key.name, unit_text(key), key.default_text(), key.help);
-    if (!key.choices.empty() || (key.kind != scene::ValueKind::text && key.kind != scene::ValueKind::truth && key.range.text() != "finite"))
+    if (!key.choices.empty() || (key.kind != scene::ValueKind::text && key.kind != scene::ValueKind::truth &&
+                                 key.range.text() != "finite"))
       fmt::print("; {}", key.allowed());
     fmt::print("\n");
   };

@@ -80,7 +80,8 @@ SweepAxis parse_axis(const std::string& text) {
   if (!key)
     throw InputError("--over " + text + ": unknown key " + axis.key + "; did you mean " +
                      std::string(scene::nearest_key(axis.key)) + "?");
-  if (key->kind == scene::ValueKind::text || key->kind == scene::ValueKind::truth) refuse(text, axis.key + " is no number");
+  if (key->kind == scene::ValueKind::text || key->kind == scene::ValueKind::truth)
+    refuse(text, axis.key + " is no number");
   const std::vector<std::string> parts = split(text.substr(mark + 1), ':');
   axis.values = parts.size() > 1 ? range(text, parts) : split(parts.front(), ',');
   for (const std::string& value : axis.values)

@@ -302,8 +302,7 @@ VectorXd Chain::residual(const VectorXd& x, const Loads& loads) const {
   for (int j = 0; j < joint_count(); ++j) {
     const SmallVector load = joints_[j]->dead_load(coordinates(x, j), loads);
     for (std::size_t k = 0; k < kept_[j].size(); ++k) f(numbering_.coordinate[j] + k) += load(kept_[j][k]);
-    if (numbering_.location[j] >= 0 && coupling_of_[j] < 0)
-      f(numbering_.location[j]) = location(x, j).value;
+    if (numbering_.location[j] >= 0 && coupling_of_[j] < 0) f(numbering_.location[j]) = location(x, j).value;
   }
   add_strand_forces(x, loads, f);
   if (slide_at_ < 0) return f;

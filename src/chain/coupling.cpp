@@ -79,7 +79,7 @@ void Chain::add_couplings(Purpose purpose, const Numbering& numbering, const Vec
       int joint;
       const contact::Centreline& strand;
       Eigen::Matrix3Xd dr, dt;  // of D and of the tangent, with what varies
-      Vector3d force;    // on the joint itself, in the Lagrangian's sign
+      Vector3d force;           // on the joint itself, in the Lagrangian's sign
     };
     const auto end = [&](int joint, const contact::Centreline& strand, double sign, const Vector3d& force) {
       const std::vector<int>& varied = kept(purpose, joint);

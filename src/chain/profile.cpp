@@ -259,8 +259,8 @@ Vector3d image_of(const Coupling& c) { return c.mirrored ? Vector3d(-1.0, 1.0, -
 
 /// Contacts with another strand. Of the distance D(s₁, s₂) at its least: D₁₁ = 1/D + e·r₁″, D₂₂ = 1/D − e·r₂″,
 /// D₁₂ = −t₁·t₂/D.
-Contact strand_contact(const Chain& chain, const Topology& topology, const RodKind& rod, const VectorXd& x, int j, int coupling,
-                       const std::vector<Piece>& pieces) {
+Contact strand_contact(const Chain& chain, const Topology& topology, const RodKind& rod, const VectorXd& x,
+                       int j, int coupling, const std::vector<Piece>& pieces) {
   const Coupling& with = chain.couplings()[coupling];
   const Chain::Crossing at = chain.crossing(x, coupling);
   const Vector3d image = image_of(with);
@@ -375,7 +375,8 @@ double total_contact_force(const Chain& chain, const Topology& topology, const R
     if (chain.on_obstacle(i)) {
       const Vector3d normal = chain.joint(i).chart(chain.coordinates(x, i)).normal;
       const Vector3d before = i > 0 ? n_before : reflected(n_first);
-      sum += copies(topology, i) * (contact_force(before, n_first, normal) - strand_push(chain, x, i, normal));
+      sum +=
+          copies(topology, i) * (contact_force(before, n_first, normal) - strand_push(chain, x, i, normal));
     }
     n_before = n_last;
   }

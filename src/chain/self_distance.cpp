@@ -256,7 +256,7 @@ class Search {
   }
 
   static constexpr double coincident = 1e-12;  ///< nothing is nearer [ρ]
-  static constexpr double same_touch = 1e-2;   ///< two touches so close are told apart by their curvature [ρ]
+  static constexpr double same_touch = 1e-2;  ///< two touches so close are told apart by their curvature [ρ]
 
   const Curve& curve_;
   double separation_, cutoff_ = HUGE_VAL;

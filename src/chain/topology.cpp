@@ -246,7 +246,8 @@ std::unique_ptr<Chain> build_chain(const RodKind& rod, const Topology& t,
     if (all[i] == Stretch::tail && !rod.strut) link.pull = leftward ? -1 : 1;
     links.push_back(std::move(link));
   }
-  auto chain = std::make_unique<Chain>(std::move(joints), std::move(fixed), std::move(links), gauges(rod, t), t.couplings());
+  auto chain = std::make_unique<Chain>(std::move(joints), std::move(fixed), std::move(links), gauges(rod, t),
+                                       t.couplings());
   if (const auto parity = neutral_turn(rod, t)) chain->expect_neutral_turn(*parity);
   return chain;
 }

@@ -166,8 +166,8 @@ ContactEvent length_event(const Profile& profile, int i, bool begins_at_mid) {
 /// changes by 3F²/32p: the line carries that, as it carries short gaps, up to F²/p = `carried_under_strand`.
 ContactEvent reaction_event(const Profile& profile, const Contact& c) {
   const double pressure = profile.pieces[c.joint].p(0), reaction = *c.reaction;
-  ContactEvent event{Kind::reaction, c.joint, 1.0 + reaction * std::abs(reaction) / (pressure * carried_under_strand),
-                     c.s};
+  ContactEvent event{Kind::reaction, c.joint,
+                     1.0 + reaction * std::abs(reaction) / (pressure * carried_under_strand), c.s};
   event.redrawn = true;
   return event;
 }
@@ -183,8 +183,8 @@ double least_curvature_at(const Profile& profile, const Contact& c) {
 }  // namespace
 
 std::string ContactEvent::name() const {
-  static const char* const words[] = {"pressure",  "suction", "length",   "force",
-                                      "curvature", "graze",   "buckling", "approach", "reaction"};
+  static const char* const words[] = {"pressure", "suction",  "length",   "force",   "curvature",
+                                      "graze",    "buckling", "approach", "reaction"};
   const std::string name = std::string(words[static_cast<int>(kind)]) + " " + std::to_string(place);
   if (kind == Kind::approach) return name + " to " + std::to_string(other) + (mirrored ? "'" : "");
   return obstacle == 0 ? name : name + ":" + std::to_string(obstacle + 1);

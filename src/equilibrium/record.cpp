@@ -112,10 +112,12 @@ void name_partners(const std::vector<chain::Coupling>& couplings,
 
 /// Where two touches are just passing each other the arc between them has no length, and its state is that of its neighbours:
 /// what of the strands' forces the obstacle takes is shared by the two.
-void fill_between_touches(std::vector<ArcRecord>& arcs, std::size_t k, JointRecord& before, JointRecord& after) {
+void fill_between_touches(std::vector<ArcRecord>& arcs, std::size_t k, JointRecord& before,
+                          JointRecord& after) {
   const ArcRecord &left = arcs[k - 1], &right = arcs[k + 1];
   ArcRecord& arc = arcs[k];
-  const Vector3d strand = before.strand_force * before.strand_normal, jump = left.n.rightCols<1>() - right.n.col(0);
+  const Vector3d strand = before.strand_force * before.strand_normal,
+                 jump = left.n.rightCols<1>() - right.n.col(0);
   const Vector3d rest = jump - strand - after.strand_force * after.strand_normal;
   if (before.obstacle >= 0) before.force = after.force = 0.5 * rest.dot(before.normal);
   arc.r.colwise() = Vector3d(left.r.rightCols<1>());

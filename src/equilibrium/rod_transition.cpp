@@ -184,8 +184,8 @@ double to_the_end(RodProblem& problem, const Vector& x, const Vector& p, int lin
 void adjust_length(Entry& entry, int link) {
   const bool strand = beside_strand(*entry.problem, link);
   const double factor = strand ? 4.0 : 1.5;
-  const double entered = strand ? entered_beside_strand(*entry.problem)
-                                : 0.06 * entry.problem->rod().unit_length;
+  const double entered =
+      strand ? entered_beside_strand(*entry.problem) : 0.06 * entry.problem->rod().unit_length;
   const double now = length_of(entry, link);
   const double change = now > factor * entered ? 1.0 / factor : now < entered ? factor : 1.0;
   if (change == 1.0) return;

@@ -20,7 +20,8 @@ Successor Strip::successor() const {
   std::vector<chain::Seat> contacts = on;  // the ends, and the section where a half chain begins, lie on none
   if (!mid_touch && !(half && parts.front().kind == Stretch::line)) contacts.front() = {};
   contacts.back() = {};
-  if (std::any_of(contacts.begin(), contacts.end(), [](const chain::Seat& seat) { return seat != chain::Seat{}; }))
+  if (std::any_of(contacts.begin(), contacts.end(),
+                  [](const chain::Seat& seat) { return seat != chain::Seat{}; }))
     out.topology.on = contacts;
   for (const Part& part : parts) {
     if (part.fresh) out.opened.push_back(static_cast<int>(out.topology.stretches.size()));

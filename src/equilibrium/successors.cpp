@@ -189,7 +189,8 @@ std::vector<Successor> after_curvature(const ContactEvent& event, const Strip& s
     if (i < 0 || strip.parts[i].kind != Stretch::gap) continue;
     double widest = 0.0;
     for (Eigen::Index k = 0; k < profile.pieces[i].s.size(); ++k)
-      widest = std::max(widest, std::abs(profile.obstacles[strip.on[j].obstacle].gap(profile.pieces[i].r.col(k))));
+      widest =
+          std::max(widest, std::abs(profile.obstacles[strip.on[j].obstacle].gap(profile.pieces[i].r.col(k))));
     if (widest > 1e-5 && !slightly_bowed(profile, i, widest)) continue;
     const auto is_line = [&](int part) {
       return part >= 0 && part < static_cast<int>(strip.parts.size()) &&
@@ -253,14 +254,16 @@ int cut(Strip& strip, double s, chain::Seat seat) {
   }
   const bool left_tail = !strip.half && i == 0, alone = strip.parts.size() == 1;
   const bool right_tail = strip.parts[i].kind == Stretch::tail && (!left_tail || alone);
-  strip.split(i, s, left_tail ? Stretch::tail : Stretch::gap, right_tail ? Stretch::tail : Stretch::gap, seat);
+  strip.split(i, s, left_tail ? Stretch::tail : Stretch::gap, right_tail ? Stretch::tail : Stretch::gap,
+              seat);
   return i + 1;
 }
 
 /// A strand that lies on an obstacle where another presses on it lifts off there: the line ends before and begins anew
 /// behind, and between the other carries it alone.
 std::vector<Successor> strand_lifts(int j, Strip strip) {
-  const double s = strip.s[j], length = std::min({0.05, 0.2 * (s - strip.s[j - 1]), 0.2 * (strip.s[j + 1] - s)});
+  const double s = strip.s[j],
+               length = std::min({0.05, 0.2 * (s - strip.s[j - 1]), 0.2 * (strip.s[j + 1] - s)});
   const chain::Seat seat = strip.on[j];
   strip.split(j, s + length, Stretch::gap, Stretch::line);
   strip.split(j - 1, s - length, Stretch::line, Stretch::gap);
@@ -378,7 +381,8 @@ int image_strand(const Successor& next, int joint) {
   for (int j = 0; j < count; ++j)
     if (j != joint && strand(j) == strand(joint)) other = j;
   if (other < 0 || strand(joint) == 0) return strand(joint);
-  if (next.s[other] * next.s[joint] > 0.0) return strand(joint) + count;  // both on this side: a touch of its own
+  if (next.s[other] * next.s[joint] > 0.0)
+    return strand(joint) + count;  // both on this side: a touch of its own
   for (int j = 0; j < count; ++j)
     if (strand(j) != 0 && next.s[j] * next.s[joint] > 0.0 &&
         (image < 0 || std::abs(next.s[j] + next.s[other]) < std::abs(next.s[image] + next.s[other])))

@@ -74,7 +74,9 @@ std::optional<Started> pressed_apart(const Started& flat, double radius) {
   for (const Crossing& touch : touches) {
     std::size_t i = 0;
     while (i + 1 < topology.stretches.size() && touch.s > s[i + 1]) ++i;
-    const auto place = [](auto& list, std::size_t k) { return list.begin() + static_cast<std::ptrdiff_t>(k); };
+    const auto place = [](auto& list, std::size_t k) {
+      return list.begin() + static_cast<std::ptrdiff_t>(k);
+    };
     const Stretch kind = topology.stretches[i];
     if (kind != Stretch::line) topology.stretches[i] = Stretch::gap;
     topology.stretches.insert(place(topology.stretches, i + 1), kind);
@@ -97,19 +99,33 @@ std::optional<Started> pressed_apart(const Started& flat, double radius) {
   return Started{problem, x, problem->parameters(), flat.newton_iterations};
 }
 
+/// A flat rod that nowhere crosses itself, as one that may.
+Started as_thick(const Started& flat, const scene::Scene& scene, bool half,
+                 const std::vector<std::string>& keys) {
+  auto problem =
+      std::make_shared<RodProblem>(scene, true, flat.problem->topology(), flat.problem->meshes(), keys);
+  Started thick{problem, flat.x, problem->parameters(), flat.newton_iterations};
+  return half ? thick : unfold(*problem, thick.x, thick.p, thick.newton_iterations);
+}
+
 }  // namespace
 
-Started thicken(const Started& flat, const scene::Scene& scene, bool half, const std::vector<std::string>& keys) {
-  // Turns that lie on each other part by so little that a thinner rod's edges would be lost in rounding.
-  constexpr double thin = 0.01;
-  std::optional<Started> start = pressed_apart(flat, std::min(thin, scene.rod_radius));
-  if (!start) return flat;
-  const int used = start->problem->polish(start->x, start->p);
-  if (used < 0) throw NoEquilibrium("Newton did not converge on a rod with next to no thickness from the thin one");
+Started thicken(const Started& flat, const scene::Scene& scene, bool half,
+                const std::vector<std::string>& keys) {
+  std::optional<Started> start;
+  // As thick as Newton's method reaches at once: under high tension turns part by so little that they must be thinner.
+  for (double radius = std::min(0.01, scene.rod_radius); !start && radius > 1e-5; radius *= 0.3) {
+    std::optional<Started> trial = pressed_apart(flat, radius);
+    if (!trial) return as_thick(flat, scene, half, keys);
+    const int used = trial->problem->polish(trial->x, trial->p);
+    if (used < 0 || !contacts_hold(*trial->problem, trial->x, trial->p)) continue;
+    trial->newton_iterations += used;
+    start = trial;
+  }
+  if (!start)
+    throw NoEquilibrium(
+        "pressed apart where they cross, the strands of the flat rod would pull at each other");
   start->x = start->problem->refine(start->x, start->p);
-  start->newton_iterations += used;
-  if (!contacts_hold(*start->problem, start->x, start->p))
-    throw NoEquilibrium("pressed apart where they cross, the strands of the flat rod pull at each other");
   std::string failure;
   if (auto reached = reach(*start, scene, scene.rod_radius, half, keys, failure)) return *reached;
   throw NoEquilibrium("from the thin rod no thick one was reached: " + failure);

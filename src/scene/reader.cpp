@@ -53,7 +53,8 @@ class Resolver {
     if (!is_numeric_key(name) || (name == "rod.radius" && !thick)) {
       std::string list;
       for (const Key& key : keys())
-        if (key.is_parameter && (thick || key.name != "rod.radius")) list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", key.name);
+        if (key.is_parameter && (thick || key.name != "rod.radius"))
+          list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", key.name);
       throw SceneError(
           fmt::format("{}must be a key that a branch can be followed in, one of {}", entry->prefix(), list));
     }

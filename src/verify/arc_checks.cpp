@@ -129,7 +129,7 @@ struct Surroundings {
 
 void check_sample(const ArcRecord& arc, Eigen::Index i, const Surroundings& around, const Scales& scales,
                   Collected& found) {
-  if (arc.kind != ArcKind::line) return;
+  if (arc.kind != ArcKind::line || arc.s_end - arc.s_begin < tight) return;  // vanishes at an event
   const Section stored = sample(arc, i);
   const double pressure = arc.p[i];
   found.pressures.emplace_back(arc.s[i], pressure);

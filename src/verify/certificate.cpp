@@ -64,7 +64,8 @@ std::string arc_error(const ArcRecord& arc, std::size_t number) {
 
 std::string structure_error(const Solution& solution) {
   for (const equilibrium::JointRecord& joint : solution.joints)
-    if (joint.partner >= static_cast<int>(solution.joints.size())) return "a joint touches one that is not there";
+    if (joint.partner >= static_cast<int>(solution.joints.size()))
+      return "a joint touches one that is not there";
   if (!solution.converged) return "the solution is marked as not converged";
   if (solution.arcs.empty()) return "the solution has no arcs";
   if (solution.joints.size() != solution.arcs.size() + 1) return "arcs and joints do not alternate";

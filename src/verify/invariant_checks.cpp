@@ -56,10 +56,12 @@ void check_scaling(const Solution& solution, const scene::Scene& scene, const Sc
   const double length = last.s(last.s.size() - 1) - first.s(0);
   const double h = Stiffness(scene.rod).hamiltonian(last_section(last));
   const double ends = last.r.rightCols<1>().dot(right) + first.r.col(0).dot(left);
-  const double pulls = h * length - solution.T * ends, forces = solution.R_tot + 2.0 * scene.rod_radius * solution.self_force;
+  const double pulls = h * length - solution.T * ends,
+               forces = solution.R_tot + 2.0 * scene.rod_radius * solution.self_force;
   const double size = std::max({scales.force, std::abs(pulls), forces, solution.energy});
-  list.at_most("scaling", std::abs(forces - (pulls - solution.energy)) / size, tight,
-               "R_tot + 2r (forces between strands) against H L - T (projections of the ends) - energy, relative");
+  list.at_most(
+      "scaling", std::abs(forces - (pulls - solution.energy)) / size, tight,
+      "R_tot + 2r (forces between strands) against H L - T (projections of the ends) - energy, relative");
 }
 
 }  // namespace

@@ -313,7 +313,7 @@ class Chain {
   std::vector<int> odd_;  ///< of the first joint of a half chain in odd variations
   int first_contact_ = -1, last_contact_ = -1;  ///< the outermost contacts; without one the ends
   bool in_contact_ = false, slides_ = false;
-  Eigen::Index slide_at_ = -1;                                   ///< place of (c, λ) in the state
+  Eigen::Index slide_at_ = -1;  ///< place of (c, λ) in the state
   std::vector<Eigen::Index> joint_at_, force_at_, interior_at_, strand_at_;  // offsets in the state
   std::vector<Eigen::Index> rest_at_;       ///< rests of s and of the places in the state, of contacts only
   std::vector<Eigen::Index> interior_row_;  // offsets in the increment

@@ -29,13 +29,13 @@ struct Piece {
 /// A contact joint as seen from outside.
 struct Contact {
   int joint = 0;
-  int obstacle = 0;    ///< −1: another strand of the rod
-  int coupling = -1;   ///< of the chain's couplings, with another strand
+  int obstacle = 0;   ///< −1: another strand of the rod
+  int coupling = -1;  ///< of the chain's couplings, with another strand
   bool edge = false;
-  double s = 0.0, angle = 0.0, z = 0.0;  ///< angle: unrolled, round e_z
-  Eigen::Vector3d r, normal;             ///< outward; of two strands: away from the other
+  double s = 0.0, angle = 0.0, z = 0.0;                      ///< angle: unrolled, round e_z
+  Eigen::Vector3d r, normal;                                 ///< outward; of two strands: away from the other
   Eigen::Vector3d surface_normal = Eigen::Vector3d::Zero();  ///< of the obstacle, outward
-  double force = 0.0;                    ///< outward on the rod; >= 0 where the contact holds
+  double force = 0.0;  ///< outward on the rod; >= 0 where the contact holds
   /// g'' at a touch, >= 0; of two strands the least curvature of their distance as either place moves.
   double gap_curvature = 0.0;
   /// Of a strand that lies on an obstacle where another presses on it: the obstacle's force, outward.
@@ -47,7 +47,7 @@ struct Profile {
   std::vector<Contact> contacts;  ///< in the order of the chain's joints
   obstacle::Set obstacles;
   rod::Material material;
-  double radius = 0.0;  ///< of the rod, 0: its strands pass through each other [ρ]
+  double radius = 0.0;       ///< of the rod, 0: its strands pass through each other [ρ]
   double unit_length = 1.0;  ///< see RodKind
 
   double begin() const { return pieces.front().s(0); }

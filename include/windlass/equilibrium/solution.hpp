@@ -22,7 +22,7 @@ enum class JointKind {
   edge,
   infinity,
   strand  ///< touches another strand of the rod, and no obstacle
-};  ///< infinity: start of a closed-form infinite tail's far end
+};        ///< infinity: start of a closed-form infinite tail's far end
 
 /// One stretch of rod in one contact state, sampled at its mesh nodes.
 ///

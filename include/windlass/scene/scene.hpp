@@ -99,9 +99,9 @@ struct Scene {
   std::string name;   ///< file stem, or the scene's `name` key
   std::string title;  ///< one line, from the scene's `title` key
   Rod rod;
-  bool has_cylinder = false;       ///< radius of the centreline's cylinder is 1 when true
-  double rod_radius = 0.0;         ///< r [ρ]; 0 unless physical or given
-  bool self_contact = false;       ///< strands of the rod keep 2r apart
+  bool has_cylinder = false;  ///< radius of the centreline's cylinder is 1 when true
+  double rod_radius = 0.0;    ///< r [ρ]; 0 unless physical or given
+  bool self_contact = false;  ///< strands of the rod keep 2r apart
   double strand_radius() const { return self_contact ? rod_radius : 0.0; }
   std::optional<double> friction;  ///< mu
   std::vector<Wall> walls;         ///< struts only, in the order of the file

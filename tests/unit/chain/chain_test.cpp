@@ -15,6 +15,8 @@ struct Case {
   const char* name;
   bool spatial, half;
   double tension;
+  double radius = 0.0;  // 0: thin
+  double turns = 1.0;
 };
 
 /// An equilibrium with the topology that belongs to it.
@@ -22,8 +24,10 @@ equilibrium::Started state(const Case& c) {
   scene::Scene scene;
   scene.has_cylinder = true;
   scene.load.tension = c.tension;
-  scene.load.angle = 2.0 * M_PI;
-  scene.rod.length = 20.0;
+  scene.load.angle = 2.0 * M_PI * c.turns;
+  scene.rod.length = 14.0 + 6.0 * c.turns;
+  scene.rod_radius = c.radius;
+  scene.self_contact = c.radius > 0.0;
   scene.model.tolerance = 1e-6;
   return equilibrium::cold_start(scene, c.spatial, c.half, {"load.tension"});
 }
@@ -43,9 +47,21 @@ MatrixXd differences(const chain::Chain& chain, const VectorXd& x, const contact
   return j;
 }
 
-constexpr Case cases[] = {{"planar line", false, true, 1.0},  {"planar touches", false, true, 0.4},
-                          {"planar full", false, false, 1.0}, {"spatial line", true, true, 1.0},
-                          {"spatial full", true, false, 2.0}, {"spatial touches", true, true, 0.4}};
+constexpr Case cases[] = {
+    {"planar line", false, true, 1.0},
+    {"planar touches", false, true, 0.4},
+    {"planar full", false, false, 1.0},
+    {"spatial line", true, true, 1.0},
+    {"spatial full", true, false, 2.0},
+    {"spatial touches", true, true, 0.4},
+    // a strand that touches its image; two that touch each other's; one of them on the cylinder
+    {"crossing", true, true, 2.0, 0.25},
+    {"crossing full", true, false, 2.0, 0.25},
+    {"split crossing", true, true, 8.0, 0.25},
+    {"split crossing full", true, false, 8.0, 0.25},
+    {"pressed strand", true, true, 16.0, 0.25},
+    {"pressed strand full", true, false, 16.0, 0.25},
+    {"tail on a strand", true, true, 2.0, 0.1, 2.0}};
 
 }  // namespace
 
@@ -112,9 +128,10 @@ BOOST_AUTO_TEST_CASE(second_variation_is_symmetric_and_its_inertia_is_the_index)
 }
 
 BOOST_AUTO_TEST_CASE(index_of_a_full_chain_is_the_sum_of_both_parities_of_its_half) {
-  for (double tension : {2.0, 1.0}) {
-    equilibrium::Started half = state({"half", true, true, tension}),
-                         full = state({"full", true, false, tension});
+  for (const auto& [tension, radius] :
+       {std::pair{2.0, 0.0}, {1.0, 0.0}, {2.0, 0.25}, {8.0, 0.25}, {16.0, 0.25}}) {
+    equilibrium::Started half = state({"half", true, true, tension, radius}),
+                         full = state({"full", true, false, tension, radius});
     const MatrixXd none_half(half.problem->size(), 0), none_full(full.problem->size(), 0);
     half.problem->chain_to_factor().factor(half.x, half.problem->loads(half.p), none_half, none_half,
                                            MatrixXd(0, 0));

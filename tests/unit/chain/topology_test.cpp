@@ -30,7 +30,8 @@ BOOST_AUTO_TEST_CASE(contacts_name_their_obstacle) {
   BOOST_TEST(obstacles_of(whole) == (std::vector<int>{0, 0, 1, 1, 0, 0}), boost::test_tools::per_element());
   const Topology touched{{Stretch::tail}, true, true, {{1}, {}}};
   BOOST_TEST(touched.text() == "tail touch:2 tail");
-  BOOST_TEST(obstacles_of(unfolded(touched)) == (std::vector<int>{0, 1, 0}), boost::test_tools::per_element());
+  BOOST_TEST(obstacles_of(unfolded(touched)) == (std::vector<int>{0, 1, 0}),
+             boost::test_tools::per_element());
 }
 
 BOOST_AUTO_TEST_CASE(the_first_obstacle_need_not_be_named) {

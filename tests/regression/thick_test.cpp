@@ -1,0 +1,137 @@
+// Rods that touch themselves, as a user runs them: complete branches through every event, certified, both ways, half and full.
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "support/csv.hpp"
+#include "support/run_program.hpp"
+
+using namespace windlass::test;
+
+namespace {
+
+struct Coil {
+  const char* scene;
+  double length;
+};
+constexpr Coil one_turn{"capstan-2pi", 40.0}, two_turns{"capstan-4pi", 46.0};
+
+std::vector<std::string> words(const std::string& command, const Coil& coil, double radius,
+                               const std::vector<std::string>& settings) {
+  std::vector<std::string> out = {command, shipped_scene(coil.scene)};
+  const auto set = [&](const std::string& setting) { out.insert(out.end(), {"--set", setting}); };
+  set("rod.self_contact=true");
+  set("rod.radius=" + std::to_string(radius));
+  set("rod.length=" + std::to_string(coil.length));
+  for (const std::string& setting : settings) set(setting);
+  return out;
+}
+
+/// Follows a coil in the tension in `folder`/run; every point passes its certificate, that of the virial among them.
+Table follow(const TemporaryFolder& folder, const Coil& coil, double radius, double from, double to,
+             const std::vector<std::string>& more = {}) {
+  std::vector<std::string> settings = {"continuation.from=" + std::to_string(from),
+                                       "continuation.to=" + std::to_string(to)};
+  settings.insert(settings.end(), more.begin(), more.end());
+  std::vector<std::string> command = words("continue", coil, radius, settings);
+  command.insert(command.end(), {"--out", "run", "--quiet", "--no-eigenvalues"});
+  const Outcome outcome = run_program(command, folder.path());
+  BOOST_TEST(outcome.status == 0, outcome.err);
+  BOOST_TEST(outcome.err == "");  // neither lost, nor through itself
+  const Outcome certificate = run_program({"verify", "run"}, folder.path());
+  BOOST_TEST(certificate.status == 0, certificate.out);
+  BOOST_TEST(certificate.out.find("scaling") != std::string::npos);
+  return read_csv(folder.path() / "run" / "branches.csv");
+}
+
+std::vector<double> events(const Table& table) {
+  std::vector<double> out;
+  for (const auto& row : table.rows)
+    if (row.at("type") == "contact") out.push_back(std::stod(row.at("T")));
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+nlohmann::json solved(const Coil& coil, double radius, const std::vector<std::string>& settings) {
+  const TemporaryFolder folder;
+  std::vector<std::string> command = words("solve", coil, radius, settings);
+  command.push_back("--json");
+  const Outcome outcome = run_program(command, folder.path());
+  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  return nlohmann::json::parse(outcome.out);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(thick_rods)
+
+// One turn: from high tension on the crossing lies on the cylinder, leaves it, becomes one touch of mirror images, opens.
+BOOST_AUTO_TEST_CASE(the_crossing_of_one_turn) {
+  for (const double radius : {0.5, 2.0 / 7.0, 1.0 / 6.0}) {
+    const TemporaryFolder down, up, full;
+    const std::vector<double> first = events(follow(down, one_turn, radius, 20.0, 0.1));
+    const std::vector<double> second = events(follow(up, one_turn, radius, 2.0, 20.0));
+    const std::vector<double> third =
+        events(follow(full, one_turn, radius, 20.0, 0.1, {"model.symmetry=none"}));
+    BOOST_TEST(first.size() >= 3u);
+    // Found from either side, and on either chain: located to 1e-8.
+    for (const double event : second) {
+      const auto same = [&](double other) { return std::abs(other - event) < 1e-8 * event; };
+      BOOST_TEST(std::any_of(first.begin(), first.end(), same), "T = " << event << ", r = " << radius);
+    }
+    BOOST_TEST(first == third, boost::test_tools::tolerance(1e-8) << boost::test_tools::per_element());
+  }
+}
+
+// Two turns: each tail presses on the strand that it lies over.
+BOOST_AUTO_TEST_CASE(the_tails_of_two_turns) {
+  for (const auto& [radius, from] : {std::pair{1.0 / 6.0, 10.0}, {2.0 / 7.0, 5.0}, {0.5, 2.0}}) {
+    const TemporaryFolder folder;
+    const Table table = follow(folder, two_turns, radius, from, 0.3);
+    BOOST_TEST(table.rows.front().at("topology") ==
+               "tail cross gap line cross line cross line gap cross tail");
+    BOOST_TEST(std::stod(table.rows.back().at("T")) == 0.3);
+  }
+}
+
+// A thinner and thinner rod is the thin one: R_tot differs by the square of the radius.
+BOOST_AUTO_TEST_CASE(the_limit_of_a_thin_rod) {
+  const double thin = solved(one_turn, 0.0, {"rod.self_contact=false", "load.tension=2"}).at("R_tot");
+  const auto beyond = [&](double radius) {
+    return solved(one_turn, radius, {"load.tension=2"}).at("R_tot").get<double>() - thin;
+  };
+  BOOST_TEST(beyond(0.02) / beyond(0.01) == 4.0, boost::test_tools::tolerance(0.01));
+}
+
+BOOST_AUTO_TEST_CASE(half_and_full_chains_agree) {
+  for (const double tension : {0.3, 1.2, 2.0, 8.0, 16.0}) {
+    const std::string load = "load.tension=" + std::to_string(tension);
+    const auto half = solved(one_turn, 0.25, {load}),
+               full = solved(one_turn, 0.25, {load, "model.symmetry=none"});
+    for (const char* key : {"R_tot", "self_force", "energy"})
+      BOOST_TEST(half.at(key).get<double>() == full.at(key).get<double>(),
+                 boost::test_tools::tolerance(1e-9));
+    BOOST_TEST(half["stability"]["index"] == full["stability"]["index"]);
+    BOOST_TEST(half["contact"]["self"].size() == full["contact"]["self"].size());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_touch_itself_is_refused) {
+  const TemporaryFolder folder;
+  const auto message = [&](const std::vector<std::string>& settings) {
+    std::vector<std::string> command = {"solve", shipped_scene("capstan-2pi")};
+    for (const std::string& setting : settings) command.insert(command.end(), {"--set", setting});
+    const Outcome outcome = run_program(command, folder.path());
+    BOOST_TEST(outcome.status == 1);
+    return outcome.err;
+  };
+  const std::string contact = "rod.self_contact=true", radius = "rod.radius=0.2";
+  BOOST_TEST(message({contact}).find("rod.radius") != std::string::npos);
+  BOOST_TEST(message({contact, radius, "rod.length=inf"}).find("rod.self_contact") != std::string::npos);
+  BOOST_TEST(message({contact, radius, "model.kind=planar"}).find("rod.self_contact") != std::string::npos);
+  BOOST_TEST(message({contact, "rod.radius=1"}).find("rod.radius") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
