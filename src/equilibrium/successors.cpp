@@ -123,8 +123,21 @@ std::optional<Successor> touches_pass(int link, Strip strip) {
   return strip.successor();
 }
 
+/// Two touches of the same two strands meet, at both places, and are one.
+std::optional<Successor> touches_meet(int link, Strip strip) {
+  if (strip.starts_at_mid(link) || strip.on[link].strand == 0 || strip.on[link + 1].strand == 0)
+    return std::nullopt;
+  const int first = partner(strip, link), second = partner(strip, link + 1);
+  if (std::abs(first - second) != 1 || first == link + 1) return std::nullopt;
+  const int other = std::min(first, second), strand = strip.on[link].strand;
+  for (const int joint : {other, link}) strip.on[joint].strand = strand;
+  for (const int gap : {std::max(link, other), std::min(link, other)}) strip.collapse(gap);
+  return strip.successor();
+}
+
 std::vector<Successor> after_length(int link, const Strip& strip) {
   std::vector<Successor> out;
+  if (const auto met = touches_meet(link, strip)) return {*met};
   if (const auto passed = touches_pass(link, strip)) return {*passed};
   if (const auto passed = strand_passes_edge(link, strip)) return {*passed};
   // In long helices lines shrink to nothing together, at distances that differ by less than rounding.

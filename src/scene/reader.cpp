@@ -49,7 +49,8 @@ class Resolver {
     const std::string name = read_text(*entry, *find_key(entry->key));
     // In a thin rod nothing depends on its radius.
     const Entry* touches = document_.find("rod.self_contact");
-    const bool thick = touches && std::get_if<bool>(&touches->value) && std::get<bool>(touches->value);
+    const bool* said = touches ? std::get_if<bool>(&touches->value) : nullptr;
+    const bool thick = said ? *said : document_.find("rod.radius") != nullptr;
     if (!is_numeric_key(name) || (name == "rod.radius" && !thick)) {
       std::string list;
       for (const Key& key : keys())
@@ -168,6 +169,11 @@ class Resolver {
       const Key& key = *find_key(entry->key);
       scene_.rod.twist_ratio = 1.0 / (1.0 + read_number(*entry, key, key.dimension, key.range).value);
     }
+    // A rod that has a radius touches itself where it comes to; where that cannot be honoured only if it is asked for.
+    const bool thin_model =
+        scene_.model.kind == ModelKind::planar || scene_.model.kind == ModelKind::closed_form;
+    if (!document_.find("rod.self_contact"))
+      scene_.self_contact = scene_.rod_radius > 0.0 && !scene_.rod.infinite() && !thin_model;
     if (!scene_.continuation) return;
     if (!document_.find("continuation.from"))
       scene_.continuation->from = get_parameter(scene_, scene_.continuation->parameter);
