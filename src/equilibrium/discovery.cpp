@@ -51,7 +51,7 @@ void set_bounds(SNES snes, const NodalRod& rod) {
   check(SNESVISetVariableBounds(snes, low, high));
 }
 
-/// False where a matrix was singular (all contacts let go, nothing holds the rod), which KLU says by an error of its own.
+/// False where a matrix was singular (all contacts let go, nothing holds the rod): to KLU an error.
 bool finished(SNES snes, Vec solution) {
   try {
     check(SNESSolve(snes, nullptr, solution));
