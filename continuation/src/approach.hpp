@@ -16,8 +16,9 @@ class Approach {
   /// With the parameter held at a value.
   CorrectorReport solve_at(double value, Iterate& it) const;
 
-  /// Values of the parameter in the order in which they are tried: a stop value between the event and where the
-  /// state was proposed (the guess goes there with it), that place, the event itself, and a little beside it.
+  /// Values of the parameter in the order in which they are tried: a stop value between the event and where
+  /// the state was proposed (the guess goes there with it), that place, the event itself, and a little beside
+  /// it.
   /// @param direction  of the parameter; becomes the one away from the event
   /// @param step       the walk's, in the parameter
   std::vector<double> values(const Transition& transition, int& direction, double step);

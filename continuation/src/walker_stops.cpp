@@ -20,8 +20,9 @@ bool crosses(const Segment& segment, const Sample& lo, const Sample& hi, double 
   return std::isfinite(value) && a != 0.0 && (b == 0.0 || (a < 0.0) != (b < 0.0));
 }
 
-// Where in a step an event function that is positive at both ends may have been negative: the parabola through
-// its values at the last three points has its least value there, small beside the ends'. In the branch's order.
+// Where in a step an event function that is positive at both ends may have been negative: the parabola
+// through its values at the last three points has its least value there, small beside the ends'. In the
+// branch's order.
 std::vector<double> dips(const WalkState& before, const Sample& end) {
   constexpr double small =
       0.25;  // of the ends' values: the parabola is that wrong where the bend changes by it

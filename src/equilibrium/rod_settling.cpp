@@ -1,5 +1,5 @@
-// Motions that next to nothing resists: a rod is moved along itself to where no force holds it, and states that
-// something would have to hold are refused.
+// Motions that next to nothing resists: a rod is moved along itself to where no force holds it, and states
+// that something would have to hold are refused.
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -15,7 +15,8 @@ namespace {
 constexpr const char* leaves_clamp =
     "a clamped end whose rod lies on an obstacle leaves its clamp: such states are not followed";
 
-/// Are clamped ends posed with hinges? They turn with the square of a motion out of the plane that these allow.
+/// Are clamped ends posed with hinges? They turn with the square of a motion out of the plane that these
+/// allow.
 bool has_hinges(const chain::Chain& chain) {
   for (int j = 0; j < chain.joint_count(); ++j)
     if (!chain.joint(j).fixed_in_variations().empty()) return true;
@@ -61,8 +62,8 @@ bool RodProblem::settle(Vector& x, const Vector& p) {
   constexpr double nothing = 1e-10;  // of the pulls: below what a certificate asks
   constexpr int most = 12;
   const double tension = loads(p).tension;
-  // [rad] In the plane rounding leaves 1e-15. Out of it the turn grows with the square of the way, and an arm that
-  // starts only 5e-5 from its branch must be seen to turn.
+  // [rad] In the plane rounding leaves 1e-15. Out of it the turn grows with the square of the way, and an arm
+  // that starts only 5e-5 from its branch must be seen to turn.
   constexpr double out = 1e-13;
   for (int j = 0; j < chain_->joint_count(); ++j)
     if (std::abs(chain_->joint(j).out_of_clamp(chain_->coordinates(x, j))) > out)

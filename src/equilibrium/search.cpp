@@ -39,8 +39,8 @@ std::vector<Range> ranges(const scene::Scene& scene, double goal) {
   return out;
 }
 
-/// The state at the start of a range: flat (straight) and stable. A coil that is not found at once is left for the
-/// next range: no contacts are discovered for it.
+/// The state at the start of a range: flat (straight) and stable. A coil that is not found at once is left
+/// for the next range: no contacts are discovered for it.
 std::optional<Started> calm_state(scene::Scene scene, double load, bool spatial,
                                   const std::vector<std::string>& keys) {
   scene::set_parameter(scene, load_key(scene), load);

@@ -40,8 +40,8 @@ BOOST_AUTO_TEST_CASE(the_shipped_strut_touches_lies_down_and_buckles) {
   BOOST_TEST(run_program({"verify", "more"}, folder.path()).status == 0);
 }
 
-// A round rod that lies on the wall may leave the plane, and its clamps with it: such an arm is named, and nothing
-// of it is stored.
+// A round rod that lies on the wall may leave the plane, and its clamps with it: such an arm is named, and
+// nothing of it is stored.
 BOOST_AUTO_TEST_CASE(states_that_leave_their_clamps_are_not_stored) {
   const TemporaryFolder folder;
   const Outcome outcome =

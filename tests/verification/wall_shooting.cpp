@@ -55,7 +55,8 @@ WallEvent event_at(Kind kind, bool clamped, double h) {
   const double pi = M_PI, euler = (clamped ? 4.0 : 1.0) * pi * pi;
   const double factor = kind == Kind::touch ? 1.0 : kind == Kind::line ? 4.0 : clamped ? 9.0 : 16.0;
   const double free = kind != Kind::buckling ? 0.5 : clamped ? 1.0 / 3.0 : 0.25;  // of small deflections
-  // Small deflections: y = h (1 − cos kx)/2, h sin kx, or with V at the end h (kx − sin kx)/2π, h (kx + sin kx)/π.
+  // Small deflections: y = h (1 − cos kx)/2, h sin kx, or with V at the end h (kx − sin kx)/2π, h (kx + sin
+  // kx)/π.
   const double k = std::sqrt(factor * euler);
   Eigen::VectorXd guess(4);
   guess << factor * euler, 0.0, 0.0, free;
@@ -68,8 +69,9 @@ WallEvent event_at(Kind kind, bool clamped, double h) {
   };
   const auto residual = [&](const Eigen::VectorXd& x) {
     const State at = end(x);
-    // On the wall: no curvature there, at[1] = 0. With H = κ²/2 + n·t the same at both ends, and t too, a clamped end then
-    // has none either. The tangent at the wall is a double root, x(2) = 0 a simple one that says the same.
+    // On the wall: no curvature there, at[1] = 0. With H = κ²/2 + n·t the same at both ends, and t too, a
+    // clamped end then has none either. The tangent at the wall is a double root, x(2) = 0 a simple one that
+    // says the same.
     const bool by_curvature = clamped && kind != Kind::touch;
     Eigen::VectorXd f(4);
     f << (by_curvature ? Real(x(2)) : at[0]), at[3] - h, kind == Kind::touch ? Real(x(1)) : at[1],

@@ -1,6 +1,6 @@
-// A strut between plane walls (Domokos, Holmes and Royce, J. Nonlinear Sci. 7, 1997) against independent shooting
-// at finite distances and against the closed forms of small deflections: first touch, onset of line contact,
-// buckling of the part that lies on the wall.
+// A strut between plane walls (Domokos, Holmes and Royce, J. Nonlinear Sci. 7, 1997) against independent
+// shooting at finite distances and against the closed forms of small deflections: first touch, onset of line
+// contact, buckling of the part that lies on the wall.
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <continuation/walker.hpp>

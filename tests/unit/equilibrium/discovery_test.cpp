@@ -112,8 +112,8 @@ BOOST_AUTO_TEST_CASE(two_turns_below_the_line_limit) {
   BOOST_TEST(!d.stretches.empty());
 }
 
-// Under so weak a pull this coil has no flat state in contact. On the way down all nodes let go at once, nothing holds the
-// rod any more, and the matrix of that step is singular: an answer, not an error.
+// Under so weak a pull this coil has no flat state in contact. On the way down all nodes let go at once,
+// nothing holds the rod any more, and the matrix of that step is singular: an answer, not an error.
 BOOST_AUTO_TEST_CASE(a_coil_that_lifts_off_is_not_found) {
   const double angle = 9.85468;
   const Discovery d = discover(angle, 0.05, 80, false, 0.5 * angle + 11.0);
