@@ -106,6 +106,9 @@ nlohmann::json encode(const DiagramState& state, const ProblemCodec& codec) {
 }
 
 DiagramState decode(const nlohmann::json& data, const Options& options, const ProblemCodec& codec) {
+  const auto damaged = [](const std::exception& error) {
+    return std::runtime_error(std::string("the checkpoint is damaged: ") + error.what());
+  };
   try {
     if (data.at("format") != format) throw std::runtime_error("it has another format");
     Reader reader(data, codec);
@@ -120,8 +123,12 @@ DiagramState decode(const nlohmann::json& data, const Options& options, const Pr
     }
     if (walk && state.diagram.branches.empty()) throw std::runtime_error("the branch in progress is missing");
     return state;
-  } catch (const std::exception& error) {
-    throw std::runtime_error(std::string("the checkpoint is damaged: ") + error.what());
+  } catch (const nlohmann::json::exception& error) {  // an entry is missing or of another type
+    throw damaged(error);
+  } catch (const std::invalid_argument& error) {  // what the problem or the walker refuses
+    throw damaged(error);
+  } catch (const std::runtime_error& error) {
+    throw damaged(error);
   }
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "event_by_name.hpp"
+
 namespace continuation {
 namespace {
 
@@ -30,12 +32,6 @@ double solved_to(const Segment& segment, const Sample& sample) {
                           : std::min(1.0, std::max(report.contraction, report.increment));
   constexpr double oblique = 2.0;  // a function's zero may cut the branch at an angle
   return options.parameter_scale * oblique * report.increment * left;
-}
-
-const EventFunction* find(const std::vector<EventFunction>& events, const std::string& name) {
-  const auto it =
-      std::find_if(events.begin(), events.end(), [&](const auto& event) { return event.name == name; });
-  return it == events.end() ? nullptr : &*it;
 }
 
 }  // namespace

@@ -6,15 +6,10 @@
 
 #include "continuation/bracket.hpp"
 #include "continuation/locus.hpp"
+#include "event_by_name.hpp"
 
 namespace continuation {
 namespace {
-
-const EventFunction* find(const std::vector<EventFunction>& events, const std::string& name) {
-  const auto it =
-      std::find_if(events.begin(), events.end(), [&](const auto& event) { return event.name == name; });
-  return it == events.end() ? nullptr : &*it;
-}
 
 std::string degeneracy_note(LocusKind kind) {
   if (kind == LocusKind::fold) return "cusp";
@@ -229,9 +224,8 @@ bool LocusWalker::advance_once(std::string& failure) {
 void LocusWalker::finish_step(const Step& step, LocusPoint point) {
   if (!step.crossed.empty()) {
     point.type = LocusPoint::Type::event;
-    const auto which =
-        std::find_if(events_.begin(), events_.end(), [&](const auto& e) { return e.name == step.crossed; });
-    return pass(std::move(point), static_cast<std::size_t>(which - events_.begin()), step.crossed);
+    const std::ptrdiff_t which = find(events_, step.crossed) - events_.data();
+    return pass(std::move(point), static_cast<std::size_t>(which), step.crossed);
   }
   queue_.push_back(std::move(point));
   if (step.reason) {

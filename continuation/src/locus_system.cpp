@@ -5,16 +5,12 @@
 #include <stdexcept>
 #include <utility>
 
+#include "event_by_name.hpp"
+
 namespace continuation {
 namespace {
 
 constexpr double kDifference = 1e-5;  // y and its derivatives come from solves to roundoff
-
-const EventFunction* find(const std::vector<EventFunction>& events, const std::string& name) {
-  const auto it =
-      std::find_if(events.begin(), events.end(), [&](const auto& event) { return event.name == name; });
-  return it == events.end() ? nullptr : &*it;
-}
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "continuation/walker.hpp"
+#include "event_by_name.hpp"
 
 namespace continuation {
 namespace {
@@ -19,6 +20,45 @@ bool crosses(const Segment& segment, const Sample& lo, const Sample& hi, double 
   return std::isfinite(value) && a != 0.0 && (b == 0.0 || (a < 0.0) != (b < 0.0));
 }
 
+// Where in a step an event function that is positive at both ends may have been negative: the parabola
+// through its values at the last three points has its least value there, small beside the ends'. In the
+// branch's order.
+std::vector<double> dips(const WalkState& before, const Sample& end) {
+  constexpr double small =
+      0.25;  // of the ends' values: the parabola is that wrong where the bend changes by it
+  std::vector<double> places;
+  if (!(before.last_ds > 0.0)) return places;
+  for (const EventFunction& event : before.events) {
+    const EventFunction *last = find(before.previous_events, event.name),
+                        *next = find(end.events, event.name);
+    if (!last || !next) continue;
+    const int sign = sign_of(before.signs, event.name);
+    const double a = sign * last->value, b = sign * event.value, c = sign * next->value;
+    if (!(b > 0.0) || !(c > 0.0)) continue;
+    const double fall = (b - a) / before.last_ds,
+                 bend = ((c - b) / end.s - fall) / (before.last_ds + end.s),  // half the second derivative
+        slope = fall + bend * before.last_ds;
+    if (!(slope < 0.0) || !(bend > 0.0)) continue;
+    const double s = -0.5 * slope / bend;
+    if (s < end.s && b + 0.5 * slope * s < small * std::min(b, c)) places.push_back(s);
+  }
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
+// The first event up to `end`, those included that are over by then.
+std::optional<Located> first_event(Segment& segment, const Sample& end, const WalkState& before) {
+  std::optional<Located> event = locate_first_event(segment, end, before.signs);
+  for (const double s : dips(before, end)) {
+    if (event && s >= event->s) break;
+    Sample* lowest = segment.at(s, false);
+    if (!lowest) continue;
+    if (lowest->events.empty()) segment.add_events(*lowest);
+    if (auto earlier = locate_first_event(segment, *lowest, before.signs)) return earlier;
+  }
+  return event;
+}
+
 }  // namespace
 
 // F may not exist beyond an event (a length below zero): then steps fail all the way to it. An event
@@ -29,9 +69,8 @@ bool Walker::event_at_edge() {
   const double reach = 100.0 * options_.step_min;
   for (std::size_t i = 0; i < state_.events.size(); ++i) {
     const EventFunction& event = state_.events[i];
-    const auto before = std::find_if(state_.previous_events.begin(), state_.previous_events.end(),
-                                     [&](const EventFunction& other) { return other.name == event.name; });
-    if (before == state_.previous_events.end() || event.passes || event.value < 0.0) continue;
+    const EventFunction* before = find(state_.previous_events, event.name);
+    if (!before || event.passes || event.value < 0.0) continue;
     const double rate = (event.value - before->value) / state_.last_ds;
     if (event.imminent ? rate >= 0.0 : event.value + rate * reach >= 0.0) continue;
     Segment segment(state_.problem, options_, state_.x, state_.p, state_.tangent);
@@ -64,7 +103,7 @@ bool Walker::shorten(Segment& segment, Sample*& end, Located* turn, End& reason,
     }
   }
   segment.add_events(*end);
-  if (options_.detect_events) event = locate_first_event(segment, *end, state_.signs);
+  if (options_.detect_events) event = first_event(segment, *end, state_);
   if (!event) return true;
   if (!event->note.empty()) return failure = "event " + event->event + ": " + event->note, false;
   if (event->s > 0.0) {

@@ -6,24 +6,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "approach.hpp"
 #include "continuation/walker.hpp"
+#include "event_by_name.hpp"
 
 namespace continuation {
-namespace {
-
-Borders fixed_parameter(const Problem& problem, const Options& options) {
-  Borders fixed;
-  fixed.parameter = options.parameter;
-  fixed.scale = options.parameter_scale;
-  fixed.psi = Matrix(problem.size(), 0);
-  fixed.c = Matrix::Zero(problem.size(), 1);
-  fixed.d = Matrix::Ones(1, 1);
-  fixed.g = Vector::Zero(1);
-  fixed.state_scale = options.state_scale;
-  return fixed;
-}
-
-}  // namespace
 
 void Walker::adapt() {
   if (!options_.adapt) return;
@@ -61,9 +48,8 @@ void Walker::settle_event(Point& event, const std::string& name) {
   state_.mesh_changed = false;
   adapt();
   const auto value = [&](const std::vector<EventFunction>& events) -> std::optional<double> {
-    for (const EventFunction& function : events)
-      if (function.name == name) return function.value;
-    return std::nullopt;
+    const EventFunction* function = find(events, name);
+    return function ? std::optional(function->value) : std::nullopt;
   };
   if (state_.end || !state_.mesh_changed) {
     state_ = before;
@@ -137,9 +123,7 @@ void Walker::pass(Point event, std::size_t which, const std::string& name, int d
     failure = std::string(": ") + error.what();
   }
   if (!transition) return finish(End::Kind::lost, "event " + name + ": no continuation is known" + failure);
-  const auto function = std::find_if(state_.events.begin(), state_.events.end(),
-                                     [&](const EventFunction& other) { return other.name == name; });
-  if (function != state_.events.end() && function->passes)
+  if (const EventFunction* function = find(state_.events, name); function && function->passes)
     return note(std::move(event), *function, *transition);
   event.before = transition->before;
   event.after = transition->after;
@@ -178,46 +162,14 @@ void Walker::pass(Point event, std::size_t which, const std::string& name, int d
 bool Walker::enter(const Transition& transition, int direction, const std::string& passed,
                    std::string& failure) {
   const std::shared_ptr<Problem>& problem = transition.problem;
-  const double step = step_length_.current() * options_.parameter_scale;
-  const Vector p = state_.p;
-  const double here = p[options_.parameter];
-  const Options trial_options = [&] {
-    Options options = options_;
-    options.max_newton = std::max(options.max_newton, 15);
-    return options;
-  }();
-  Vector guess = transition.state;
-  const auto solve_at = [&](double value, Iterate& it) {
-    Vector at = p;
-    parameter(at) = value;
-    it = {guess, Vector::Zero(problem->size()), at, Vector::Zero(1)};
-    return correct(*problem, fixed_parameter(*problem, options_), it, trial_options);
-  };
-  std::vector<double> values;  // of the parameter, in the order in which they are tried
-  if (transition.p.size() == p.size()) {
-    const double beside = parameter(transition.p);
-    for (const double stop : {options_.target, options_.lower, options_.upper}) {
-      if (!((here - stop) * (beside - stop) < 0.0)) continue;
-      constexpr int steps = 8;  // back to the stop value
-      Iterate it;
-      for (int k = 1; k <= steps; ++k) {
-        if (!solve_at(k == steps ? stop : beside + (stop - beside) * k / steps, it).converged) break;
-        guess = it.x;
-        if (k == steps) values.push_back(stop);
-      }
-      if (values.empty()) guess = transition.state;
-    }
-    values.push_back(beside);
-    if (beside != here) direction = beside < here ? -1 : 1;  // away from the event
-  }
-  values.push_back(here);
-  for (const int sign : {direction, -direction}) {
-    for (const double size : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) values.push_back(here + sign * size * step);
-  }
+  const double here = state_.p[options_.parameter];
+  Approach approach(*problem, transition.state, state_.p, options_);
+  const std::vector<double> values =
+      approach.values(transition, direction, step_length_.current() * options_.parameter_scale);
   failure = "the new problem has no solution here";
   for (const double value : values) {
     Iterate it;
-    const CorrectorReport report = solve_at(value, it);
+    const CorrectorReport report = approach.solve_at(value, it);
     if (!report.converged) {
       if (value == here) failure = "the new problem cannot be solved: " + report.failure;
       continue;
@@ -278,10 +230,9 @@ bool Walker::valid_direction(const std::shared_ptr<Problem>& problem, const Vect
     const auto negative =
         std::count_if(sample->events.begin(), sample->events.end(), [&](const EventFunction& event) {
           if (event.passes || event.value >= -options_.event_zero) return false;
-          const auto before = std::find_if(state_.events.begin(), state_.events.end(),
-                                           [&](const EventFunction& old) { return old.name == event.name; });
+          const EventFunction* before = find(state_.events, event.name);
           // Negative already before the event, so not the event's doing.
-          return before == state_.events.end() || before->value >= -1e3 * options_.event_zero;
+          return !before || before->value >= -1e3 * options_.event_zero;
         });
     const bool valid = negative <= simultaneous;
     if (valid) return true;

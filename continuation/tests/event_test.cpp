@@ -91,6 +91,30 @@ BOOST_AUTO_TEST_CASE(several_events_in_one_step_come_in_order) {
   BOOST_TEST(std::abs(std::cos(20.0 * x) + 0.2 - 10.0 * x) < 1e-8);
 }
 
+// Negative from 0.45 to 0.55 only, between two points of the walk.
+BOOST_AUTO_TEST_CASE(an_event_that_is_over_within_a_step_is_seen) {
+  const auto dip = [](double x) { return std::pow(x - 0.5, 2) - 0.0025 + 0.1 * std::pow(x - 0.5, 3); };
+  for (const double step : {0.11, 0.2, 0.3}) {
+    auto problem = scalar([](double x, const Vector& p) { return x - p[0]; });
+    problem->events_of = [&](const Vector& x, const Vector&) {
+      return std::vector<EventFunction>{{"later", 0.52 - x[0]}, {"dip", dip(x[0])}};
+    };
+    problem->transition_of = [](std::size_t, const Vector&, const Vector&) {
+      return std::optional(Transition{nullptr, {}, "a", "b", {}});
+    };
+    Options options;
+    options.step = options.step_max = step * std::sqrt(2.0);  // x and p go equally far
+    options.target = 2.0;
+    Walker walker(problem, vector({-0.4}), vector({-0.4}), options);
+    const auto points = walk(walker);
+    BOOST_TEST_CONTEXT("step " << step) {
+      BOOST_TEST(walker.end().reason == "event dip ends the branch");
+      BOOST_TEST(std::abs(dip(points.back().x[0])) < 1e-9);
+      BOOST_TEST(points.back().x[0] < 0.5);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(unknown_continuation_is_a_lost_branch) {
   auto problem = free_spring();
   problem->transition_of = {};

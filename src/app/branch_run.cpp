@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <stdexcept>
 
 #include "app/branch_recorder.hpp"
 #include "app/branch_setup.hpp"
@@ -103,7 +104,7 @@ continuation::DiagramState restored(const output::Checkpoint& checkpoint, const 
                                     const BranchSetup& setup, const continuation::ProblemCodec& codec) {
   try {
     return continuation::decode(checkpoint.state, setup.options, codec);
-  } catch (const std::exception& error) {
+  } catch (const std::runtime_error& error) {  // damaged
     throw output::OutputError("cannot go on with " + folder.string() + ": " + error.what());
   }
 }

@@ -56,10 +56,7 @@ Option Option::one_of(const std::vector<std::string>& words) {
 }
 
 Option Option::checked(const std::function<std::string(const std::string& word)>& complaint) {
-  option_->transform([complaint, name = option_->get_name()](std::string word) {
-    if (const std::string wrong = complaint(word); !wrong.empty()) throw CLI::ValidationError(name, wrong);
-    return word;
-  });
+  option_->check([complaint](const std::string& word) { return complaint(word); });
   return *this;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 #include <vector>
 
 #include "windlass/equilibrium/record.hpp"
@@ -69,6 +70,11 @@ std::optional<std::string> SweepCase::run(int number, const fs::path& folder) co
   std::string row = std::to_string(number + 1);
   for (const std::string& value : grid_.values(number)) row += "," + csv_cell(value);
   row += ",";
+  const auto failed = [&](const std::exception& error) {
+    const std::string names = columns();
+    row.append(std::count(names.begin(), names.end(), ','), ',');
+    return row + "," + csv_cell(error.what()) + "\n";
+  };
   try {
     std::vector<std::string> settings = request_.common.set;
     const std::vector<std::string> own = grid_.settings(number);
@@ -77,12 +83,12 @@ std::optional<std::string> SweepCase::run(int number, const fs::path& folder) co
     if (request_.each == "solve") return row + solve(scene) + ",\n";
     const auto cells = walk(scene, folder);
     return cells ? std::optional(row + *cells + "\n") : std::nullopt;
-  } catch (const output::OutputError&) {
-    throw;  // a full disk is no answer to the case
-  } catch (const std::exception& error) {
-    const std::string names = columns();
-    row.append(std::count(names.begin(), names.end(), ','), ',');
-    return row + "," + csv_cell(error.what()) + "\n";
+  } catch (const output::OutputError&) {  // a full disk is no answer to the case
+    throw;
+  } catch (const std::runtime_error& error) {  // a scene that cannot be, no equilibrium, PETSc
+    return failed(error);
+  } catch (const std::domain_error& error) {  // a state that leaves the equations' domain
+    return failed(error);
   }
 }
 

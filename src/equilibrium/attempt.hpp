@@ -36,6 +36,13 @@ bool contacts_hold(RodProblem& problem, const Vector& x, const Vector& p);
 std::optional<Started> reach(const Started& from, const scene::Scene& scene, double goal, bool half,
                              const std::vector<std::string>& keys, std::string& failure);
 
+/// The flat coil, in milliseconds: on the closed form's contacts, or followed from a higher tension.
+/// @param scene    in natural units
+/// @param failure  why it was not reached
+/// @throws NoContact where the rod lifts off on the way
+std::optional<Started> followed_coil(const scene::Scene& scene, bool spatial, bool half,
+                                     const std::vector<std::string>& keys, std::string& failure);
+
 /// A strut under the scene's thrust, or at its shortening. @throws NoEquilibrium
 Started straight_strut(const scene::Scene& scene, bool half, const std::vector<std::string>& keys);
 Started buckled_strut(const scene::Scene& scene, bool half, const std::vector<std::string>& keys);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "attempt.hpp"
 #include "harvest.hpp"
 #include "windlass/equilibrium/equilibria.hpp"
 #include "windlass/equilibrium/record.hpp"
@@ -38,14 +39,17 @@ std::vector<Range> ranges(const scene::Scene& scene, double goal) {
   return out;
 }
 
-/// The state at the start of a range: flat (straight) and stable.
+/// The state at the start of a range: flat (straight) and stable. A coil that is not found at once is left
+/// for the next range: no contacts are discovered for it.
 std::optional<Started> calm_state(scene::Scene scene, double load, bool spatial,
                                   const std::vector<std::string>& keys) {
   scene::set_parameter(scene, load_key(scene), load);
+  const bool half = scene.obstacles_keep_half_turn();
+  std::string failure;
   try {
-    Started start = cold_start(scene, spatial, scene.obstacles_keep_half_turn(), keys);
-    if (start.problem->total_index(start.x, start.p) > 0) return std::nullopt;
-    return start;
+    std::optional<Started> start = scene.has_cylinder ? followed_coil(scene, spatial, half, keys, failure)
+                                                      : cold_start(scene, spatial, half, keys);
+    if (start && start->problem->total_index(start->x, start->p) == 0) return start;
   } catch (const NoEquilibrium&) {
   } catch (const scene::SceneError&) {  // under a higher tension the contact arc is longer than the rod
   }

@@ -46,15 +46,14 @@ std::optional<Started> by_continuation(const scene::Scene& scene, bool spatial, 
 
 }  // namespace
 
-Started cold_start(const scene::Scene& asked, bool spatial, bool half, const std::vector<std::string>& keys) {
-  const scene::Scene scene = scene::natural(asked);
-  if (spatial && scene.has_cylinder && scene.strand_radius() > 0.0) {
+std::optional<Started> followed_coil(const scene::Scene& scene, bool spatial, bool half,
+                                     const std::vector<std::string>& keys, std::string& failure) {
+  if (spatial && scene.strand_radius() > 0.0) {
     scene::Scene thin = scene;
     thin.self_contact = false;
-    return thicken(cold_start(thin, true, true, keys), scene, half, keys);
+    const std::optional<Started> flat = followed_coil(thin, true, true, keys, failure);
+    return flat ? std::optional(thicken(*flat, scene, half, keys)) : std::nullopt;
   }
-  if (!scene.has_cylinder)
-    return scene.ends.shortening ? buckled_strut(scene, half, keys) : straight_strut(scene, half, keys);
   Loads loads = loads_of(scene);
   if (scene.rod.infinite()) loads.half_length = 0.5 * loads.angle + 40.0 / std::sqrt(loads.tension);
   const Draft draft = closed_form_draft(loads);
@@ -63,9 +62,16 @@ Started cold_start(const scene::Scene& asked, bool spatial, bool half, const std
                             ": the rod is shorter than its contact arc, which needs more than " +
                             std::to_string(2.0 * draft.s[1]));
   const chain::Profile profile = chain::capstan_profile(loads.tension, loads.angle, loads.half_length, 1.0);
-  if (auto direct = attempt(scene, spatial, half, keys, draft, profile)) return *direct;
+  if (auto direct = attempt(scene, spatial, half, keys, draft, profile)) return direct;
+  return by_continuation(scene, spatial, half, keys, failure);
+}
+
+Started cold_start(const scene::Scene& asked, bool spatial, bool half, const std::vector<std::string>& keys) {
+  const scene::Scene scene = scene::natural(asked);
+  if (!scene.has_cylinder)
+    return scene.ends.shortening ? buckled_strut(scene, half, keys) : straight_strut(scene, half, keys);
   std::string failure;
-  if (auto reached = by_continuation(scene, spatial, half, keys, failure)) return *reached;
+  if (auto followed = followed_coil(scene, spatial, half, keys, failure)) return *followed;
   if (auto discovered = discovered_start(scene, spatial, half, keys)) return *discovered;
   throw NoEquilibrium("no equilibrium in contact was found at T = " + std::to_string(asked.load.tension) +
                       ", phi = " + std::to_string(scene.load.angle) + ": " + failure);

@@ -48,6 +48,13 @@ BOOST_AUTO_TEST_CASE(values_out_of_range) {
                  "capstan.toml:3: rod.radius = -0.1: must be >= 0");
 }
 
+BOOST_AUTO_TEST_CASE(an_option_that_cannot_be_is_named_once) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run_program({"plot", "run", "--format", "bmp"}, folder.path());
+  BOOST_TEST(outcome.status == 1);
+  BOOST_TEST(outcome.err.starts_with("--format: bmp: must be one of png, png@DOTS, svg, pdf\n"));
+}
+
 BOOST_AUTO_TEST_CASE(unknown_key) {
   expect_refusal("tension = 1.0", "tensoin = 1.0",
                  "capstan.toml:5: load.tensoin = 1: unknown key; did you mean load.tension?");

@@ -40,6 +40,24 @@ BOOST_AUTO_TEST_CASE(the_shipped_strut_touches_lies_down_and_buckles) {
   BOOST_TEST(run_program({"verify", "more"}, folder.path()).status == 0);
 }
 
+// A round rod that lies on the wall may leave the plane, and its clamps with it: such an arm is named, and
+// nothing of it is stored.
+BOOST_AUTO_TEST_CASE(states_that_leave_their_clamps_are_not_stored) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      run_program({"diagram", shipped_scene("strut-between-walls"), "--set", "rod.bending_stiffness_2=1",
+                   "--set", "continuation.to=0.01", "--no-eigenvalues", "--out", "run"},
+                  folder.path());
+  BOOST_TEST(outcome.status == 0);
+  BOOST_TEST(
+      outcome.out.find(
+          "no arm: B3: direction 1 (+): a clamped end whose rod lies on an obstacle leaves its clamp") !=
+          std::string::npos,
+      outcome.out);
+  const Outcome verified = run_program({"verify", "run"}, folder.path());
+  BOOST_TEST(verified.status == 0, verified.out);
+}
+
 BOOST_AUTO_TEST_CASE(one_state_on_the_wall) {
   const TemporaryFolder folder;
   const Outcome outcome =

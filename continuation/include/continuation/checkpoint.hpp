@@ -11,7 +11,8 @@ namespace continuation {
 /// bit, memory of earlier calls included; only then does a resumed diagram equal one never left.
 struct ProblemCodec {
   std::function<nlohmann::json(const Problem&)> encode;
-  /// @throws std::exception for data that are no problem
+  /// @throws nlohmann::json::exception, std::invalid_argument, std::runtime_error where the data are no
+  ///   problem
   std::function<std::shared_ptr<Problem>(const nlohmann::json&)> decode;
 };
 

@@ -12,10 +12,10 @@
 /// | event | positive quantity | what follows |
 /// |---|---|---|
 /// | pressure | least pressure on a line contact | a gap opens, or closes; a line that is pressed evenly lifts |
-/// | suction | 1 less the width on which a line contact pulls, over what a line carries for a gap | that gap, as an arc |
+/// | suction | 1 less the length of the gap that opens where a line pulls, over what a line carries | that gap, as an arc |
 /// | length | length of a line contact, or of a gap between touches, less `least_length`; of a gap beside a line less what the
 /// line carries; of a tail less `shortest_tail` | a touch in its place; the line; nothing, the contact is at the rod's end |
-/// | force | point force at a touch or an edge | the touch is lost (an edge: no successor is known) |
+/// | force | point force at a touch or an edge | the touch is lost; an edge: what `length` says if its line is as short |
 /// | curvature | g'' at a touch, on a plane less `least_curvature` | the touch flattens into a line, or comes apart into two |
 /// | graze | least gap inside a free arc, of each obstacle | a new touch |
 /// | approach | least distance of two strands less 2r, of every pair of links | a new touch of the two |

@@ -1,0 +1,67 @@
+#include "approach.hpp"
+
+#include <algorithm>
+
+#include "continuation/corrector.hpp"
+
+namespace continuation {
+namespace {
+
+Borders fixed_parameter(const Problem& problem, const Options& options) {
+  Borders fixed;
+  fixed.parameter = options.parameter;
+  fixed.scale = options.parameter_scale;
+  fixed.psi = Matrix(problem.size(), 0);
+  fixed.c = Matrix::Zero(problem.size(), 1);
+  fixed.d = Matrix::Ones(1, 1);
+  fixed.g = Vector::Zero(1);
+  fixed.state_scale = options.state_scale;
+  return fixed;
+}
+
+}  // namespace
+
+Approach::Approach(Problem& problem, const Vector& guess, const Vector& p, const Options& options)
+    : problem_(problem), guess_(guess), p_(p), options_(options) {
+  options_.max_newton = std::max(options_.max_newton, 15);
+}
+
+CorrectorReport Approach::solve_at(double value, Iterate& it) const {
+  Vector at = p_;
+  at[options_.parameter] = value;
+  it = {guess_, Vector::Zero(problem_.size()), at, Vector::Zero(1)};
+  return correct(problem_, fixed_parameter(problem_, options_), it, options_);
+}
+
+std::vector<double> Approach::values(const Transition& transition, int& direction, double step) {
+  const double here = p_[options_.parameter];
+  std::vector<double> out;
+  if (transition.p.size() == p_.size()) {
+    const double beside = transition.p[options_.parameter];
+    for (const double stop : {options_.target, options_.lower, options_.upper})
+      if ((here - stop) * (beside - stop) < 0.0 && go_back(beside, stop)) out.push_back(stop);
+    out.push_back(beside);
+    if (beside != here) direction = beside < here ? -1 : 1;
+  }
+  out.push_back(here);
+  for (const int sign : {direction, -direction}) {
+    for (const double size : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) out.push_back(here + sign * size * step);
+  }
+  return out;
+}
+
+bool Approach::go_back(double beside, double stop) {
+  constexpr int steps = 8;
+  const Vector before = guess_;
+  Iterate it;
+  for (int k = 1; k <= steps; ++k) {
+    if (!solve_at(k == steps ? stop : beside + (stop - beside) * k / steps, it).converged) {
+      guess_ = before;
+      return false;
+    }
+    guess_ = it.x;
+  }
+  return true;
+}
+
+}  // namespace continuation

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "continuation/bordered_newton.hpp"
+#include "continuation/problem.hpp"
+
+namespace continuation {
+
+/// Solves a new problem beside the event that led to it, from the state that was proposed.
+class Approach {
+ public:
+  /// The problem must stay while this is in use. @param p  at the event
+  Approach(Problem& problem, const Vector& guess, const Vector& p, const Options& options);
+
+  /// With the parameter held at a value.
+  CorrectorReport solve_at(double value, Iterate& it) const;
+
+  /// Values of the parameter in the order in which they are tried: a stop value between the event and where
+  /// the state was proposed (the guess goes there with it), that place, the event itself, and a little beside
+  /// it.
+  /// @param direction  of the parameter; becomes the one away from the event
+  /// @param step       the walk's, in the parameter
+  std::vector<double> values(const Transition& transition, int& direction, double step);
+
+ private:
+  /// Brings the guess to the stop value, or leaves it where it is.
+  bool go_back(double beside, double stop);
+
+  Problem& problem_;
+  Vector guess_, p_;
+  Options options_;
+};
+
+}  // namespace continuation
