@@ -18,8 +18,9 @@ bool Chain::neutral(const VectorXd& x, const Loads& loads, int link) const {
     if (joints_[end]->kind() != JointKind::end || joints_[other]->kind() != JointKind::touch) continue;
     const contact::Side side = end == link ? contact::Side::right : contact::Side::left;
     const bool clamped = joints_[end]->attach(side, coordinates(x, end), loads).dq.isZero(0.0);
-    const auto moment = gradients_[link].segment(end == link ? 0 : d, d);
-    if (clamped && moment.norm() < free_of_moment * std::sqrt(force(x, loads, link).norm())) return true;
+    // A long tail has no moment at its clamp either, but one at its touch.
+    const auto moments = gradients_[link].head(2 * d);
+    if (clamped && moments.norm() < free_of_moment * std::sqrt(force(x, loads, link).norm())) return true;
   }
   return false;
 }
