@@ -165,8 +165,9 @@ Chain::Inertia Chain::inertia(const VectorXd& x, const Loads& loads, Parity pari
     }
     negative += arcs[i]->negative_pivots();
   }
-  const MatrixXd dense = condensed_variation(purpose, numbering, x, loads, arcs, condensed);
-  if (may_turn(parity, x, loads)) return {negative + negative_but_turn(dense, numbering.location), false};
+  MatrixXd dense = condensed_variation(purpose, numbering, x, loads, arcs, condensed);
+  const VectorXd turn = neutral_turn(purpose, numbering, x, loads, dense);
+  if (turn.size() > 0) dense += usual_size(dense) * turn * turn.transpose();
   constexpr double close_to_rounding = 1e-9;  // of the largest entry
   const SymmetricFactors factors(dense);
   const bool near = replaced.empty() && dense.size() > 0 &&
