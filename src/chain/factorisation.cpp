@@ -10,7 +10,6 @@ namespace windlass::chain {
 
 using contact::Attachment;
 using contact::JointKind;
-using contact::Parity;
 using contact::Side;
 using contact::SmallMatrix;
 using contact::SmallVector;
@@ -226,9 +225,10 @@ void Chain::factor(const VectorXd& x, const Loads& loads, const MatrixXd& b_aske
     dense.bottomRightCorner(k, k) = d - interior_c_.transpose() * b;
   }
   if (!dense.allFinite()) throw std::domain_error("the chain's matrix is not finite");
+  // Made regular, its solutions have no part along a turn that costs nothing, so that Newton does not wander along it.
+  const VectorXd turn = neutral_turn(Purpose::equilibrium, numbering_, x, loads, dense, asked_);
+  if (turn.size() > 0) dense += usual_size(dense) * turn * turn.transpose();
   if (dense.rows() > 0) dense_.compute(dense);
-  if (may_turn(Parity::even, x, loads) && dense.rows() > 0 && is_singular(dense_))
-    dense_.compute(without_turn(dense, numbering_.location));
   int negative = 0;
   for (const Link& link : links_) negative += link.arc->negative_pivots();
   determinant_sign_ = negative % 2 == 0 ? 1 : -1;

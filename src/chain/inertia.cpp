@@ -18,8 +18,9 @@ bool Chain::neutral(const VectorXd& x, const Loads& loads, int link) const {
     if (joints_[end]->kind() != JointKind::end || joints_[other]->kind() != JointKind::touch) continue;
     const contact::Side side = end == link ? contact::Side::right : contact::Side::left;
     const bool clamped = joints_[end]->attach(side, coordinates(x, end), loads).dq.isZero(0.0);
-    const auto moment = gradients_[link].segment(end == link ? 0 : d, d);
-    if (clamped && moment.norm() < free_of_moment * std::sqrt(force(x, loads, link).norm())) return true;
+    // A long tail has no moment at its clamp either, but one at its touch.
+    const auto moments = gradients_[link].head(2 * d);
+    if (clamped && moments.norm() < free_of_moment * std::sqrt(force(x, loads, link).norm())) return true;
   }
   return false;
 }
@@ -165,8 +166,9 @@ Chain::Inertia Chain::inertia(const VectorXd& x, const Loads& loads, Parity pari
     }
     negative += arcs[i]->negative_pivots();
   }
-  const MatrixXd dense = condensed_variation(purpose, numbering, x, loads, arcs, condensed);
-  if (may_turn(parity, x, loads)) return {negative + negative_but_turn(dense, numbering.location), false};
+  MatrixXd dense = condensed_variation(purpose, numbering, x, loads, arcs, condensed);
+  const VectorXd turn = neutral_turn(purpose, numbering, x, loads, dense);
+  if (turn.size() > 0) dense += usual_size(dense) * turn * turn.transpose();
   constexpr double close_to_rounding = 1e-9;  // of the largest entry
   const SymmetricFactors factors(dense);
   const bool near = replaced.empty() && dense.size() > 0 &&

@@ -3,31 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "windlass/chain/chain.hpp"
+#include "windlass/rod/quaternion.hpp"
+
 namespace windlass::chain {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
-namespace {
-
-/// The vector of a null space (orthonormal columns) with the least part in the rows of location conditions.
-/// @param locations  those rows, −1: none
-struct Least {
-  Least(const MatrixXd& null_space, const std::vector<Eigen::Index>& locations) {
-    MatrixXd part = MatrixXd::Zero(static_cast<Eigen::Index>(locations.size()), null_space.cols());
-    for (std::size_t j = 0; j < locations.size(); ++j)
-      if (locations[j] >= 0) part.row(static_cast<Eigen::Index>(j)) = null_space.row(locations[j]);
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(part.transpose() * part);
-    vector = null_space * eigen.eigenvectors().col(0);
-    constexpr double little = 0.1;
-    is_turn = std::sqrt(std::abs(eigen.eigenvalues()(0))) < little * vector.cwiseAbs().maxCoeff();
-  }
-  VectorXd vector;
-  bool
-      is_turn;  ///< a turn of a flat rod moves no contact along it; the rest is a touch about to flatten or to leave
-};
-
-}  // namespace
+using contact::Attachment;
+using contact::JointKind;
+using contact::Parity;
+using contact::Side;
+using Eigen::Vector3d;
 
 double median(VectorXd values) {
   const auto middle = values.begin() + values.size() / 2;
@@ -35,34 +20,65 @@ double median(VectorXd values) {
   return *middle;
 }
 
-bool is_singular(const Eigen::PartialPivLU<MatrixXd>& lu) {
-  const VectorXd pivots = lu.matrixLU().diagonal().cwiseAbs();
-  return pivots.minCoeff() < nearly_zero * median(pivots);
+namespace {
+
+/// Of a frame, in body components, as half the angle; see rod::turn_increment.
+Vector3d increment(const rod::Quaternion& q, const Vector3d& turn, double spin) {
+  return 0.5 * (rod::directors(q).transpose() * turn + spin * Vector3d::UnitZ());
 }
 
-MatrixXd without_turn(const MatrixXd& singular, const std::vector<Eigen::Index>& locations) {
-  const Eigen::JacobiSVD<MatrixXd> svd(singular, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const double usual = median(svd.singularValues());
-  const Eigen::Index nullity = (svd.singularValues().array() < nearly_zero * usual).count();
-  if (nullity == 0) return singular;
-  const Least left(svd.matrixU().rightCols(nullity), locations);
-  if (!left.is_turn) return singular;
-  const VectorXd u = left.vector, v = Least(svd.matrixV().rightCols(nullity), locations).vector;
-  // The determinant's sign must not depend on that of u.
-  const double orientation = u.dot(v) < 0.0 ? -1.0 : 1.0;
-  return singular + orientation * usual * u * v.transpose();
+}  // namespace
+
+double Chain::spin_at_clamps(const VectorXd& x, const Loads& loads, const Vector3d& turn) const {
+  for (const int j : {0, joint_count() - 1}) {
+    if (joints_[j]->kind() != JointKind::end) continue;
+    const Attachment end = attachment(Purpose::equilibrium, x, loads, j, j == 0 ? Side::right : Side::left);
+    if (end.dq.isZero(0.0)) return -turn.dot(rod::directors(Eigen::Vector4d(end.q)).col(2));
+  }
+  return 0.0;
 }
 
-int negative_but_turn(const MatrixXd& dense, const std::vector<Eigen::Index>& locations) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(dense);
-  const VectorXd& values = eigen.eigenvalues();
-  // An arc that is singular by itself leaves an entry as large as 1e10, and its rounding to the others.
-  const double zero = 3e-9 + 1e-14 * values.cwiseAbs().maxCoeff();
-  const auto negative = (values.array() < 0.0).count();
-  if (negative == 0) return 0;
-  const bool turns =
-      values(negative - 1) > -zero && Least(eigen.eigenvectors().col(negative - 1), locations).is_turn;
-  return static_cast<int>(negative) - turns;
+VectorXd Chain::turn_of_joints(Purpose purpose, const Numbering& numbering, const VectorXd& x,
+                               const Loads& loads, const Vector3d& turn, double spin) const {
+  VectorXd motion = VectorXd::Zero(numbering.size);
+  for (int j = 0; j < joint_count(); ++j) {
+    const Attachment at = attachment(purpose, x, loads, j, j < link_count() ? Side::right : Side::left);
+    const Eigen::Index count = at.dx.cols();
+    if (count == 0) continue;
+    MatrixXd by(6, count);
+    Eigen::Matrix<double, 6, 1> change;
+    by << at.dq, at.dx;
+    change << increment(at.q, turn, spin), turn.cross(Vector3d(at.x));
+    motion.segment(numbering.coordinate[j], count) = by.colPivHouseholderQr().solve(change);
+  }
+  for (int i = 0; i < link_count(); ++i)
+    if (numbering.force[i] >= 0)
+      motion.segment<3>(numbering.force[i]) = turn.cross(Vector3d(force(x, loads, i)));
+  return motion;
 }
+
+VectorXd Chain::neutral_turn(Purpose purpose, const Numbering& numbering, const VectorXd& x,
+                             const Loads& loads, const MatrixXd& dense, Eigen::Index asked) const {
+  if (dense.rows() == 0 || !may_turn(purpose == Purpose::odd ? Parity::odd : Parity::even, x, loads))
+    return {};
+  const Vector3d turn = *neutral_turn_ == Parity::odd ? Vector3d::UnitX() : Vector3d::UnitY();
+  const double spin = spin_at_clamps(x, loads, turn);
+  VectorXd motion = VectorXd::Zero(dense.rows());
+  motion.head(numbering.size) = turn_of_joints(purpose, numbering, x, loads, turn, spin);
+  Eigen::Index row = numbering.size + asked;
+  for (int i = 0; i < link_count(); ++i)
+    for (const bvp::Held& held : links_[i].arc->held()) {
+      const double* node = interior(x, i) + held.first / links_[i].arc->tangent() * links_[i].arc->ambient();
+      const Vector3d moved = increment(Eigen::Map<const Eigen::Vector4d>(node), turn, spin);
+      motion(row++) = -held.direction.dot(moved);
+    }
+  motion.normalize();
+  VectorXd resisted = dense * motion;
+  resisted.segment(numbering.size, asked).setZero();
+  if (!(resisted.cwiseAbs().maxCoeff() < nearly_zero * usual_size(dense))) return {};
+  return motion;
+}
+
+double usual_size(const MatrixXd& dense) { return median(dense.cwiseAbs().rowwise().maxCoeff()); }
 
 }  // namespace windlass::chain

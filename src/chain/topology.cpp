@@ -107,15 +107,14 @@ std::unique_ptr<Arc> make_arc(const RodKind& rod, Stretch stretch, int obstacle,
 }
 
 /// Parity, under the half-turn, of a turn of the whole rod that costs nothing: a flat rod on isolated touches turns about
-/// the pulls if they lie along one line, or about their direction, the normal of its mid-point, if they are parallel. A line
-/// contact alone is about to become isolated touches. Clamped ends turn with their rod only about one line.
+/// the pulls if they lie along one line, or about their direction, the normal of its mid-point, if they are parallel.
+/// Clamped ends turn with their rod only about one line.
 std::optional<contact::Parity> neutral_turn(const RodKind& rod, const Topology& t) {
   const double half_turns = rod.pull_angle / M_PI, whole = std::round(half_turns);
   constexpr double nearly = 1e-5;  // there too the turn costs too little to be told from rounding
   if (!(std::abs(half_turns - whole) < nearly)) return std::nullopt;
   const std::vector<Stretch>& all = t.stretches;
-  const auto has = [&](Stretch kind) { return std::find(all.begin(), all.end(), kind) != all.end(); };
-  if (has(Stretch::line) && has(Stretch::gap)) return std::nullopt;
+  if (std::find(all.begin(), all.end(), Stretch::line) != all.end()) return std::nullopt;
   if (std::remainder(whole, 2.0) == 0.0)
     return rod.clamped() && !rod.isotropic_straight() ? std::nullopt : std::optional(contact::Parity::odd);
   return rod.clamped() ? std::nullopt : std::optional(contact::Parity::even);

@@ -47,15 +47,15 @@ Variation::Variation(const Linearisation& at, Parity parity) : at_(at) {
   unknowns_ = dense.rows();
   dense = (0.5 * (dense + dense.transpose())).eval();
   locations_ = numbering.location;
+  const VectorXd turn = chain.neutral_turn(purpose, numbering, at.x_, at.loads_, dense);
+  neutral_ = turn.size() > 0;
+  if (neutral_) hold(dense, turn, usual_size(dense));
   condensed_ = dense;
   condensed_negative_ = negative_ - numbering.constraints;
-  neutral_ = chain.may_turn(parity, at.x_, at.loads_);
-  const int but_turn = neutral_ ? negative_but_turn(dense, numbering.location) : 0;
-  if (neutral_) hold_null(dense, nearly_zero);
   factors_ = std::make_shared<const SymmetricFactors>(dense);
-  negative_ += neutral_ ? but_turn : factors_->negative();
+  negative_ += factors_->negative();
   if (factors_->least_pivot() < rounding * size_of(dense.diagonal())) {
-    hold_null(dense, rounding);
+    hold_null(dense);
     factors_ = std::make_shared<const SymmetricFactors>(dense);
   }
   negative_ -= numbering.constraints;
@@ -94,16 +94,18 @@ double Variation::size_of(const VectorXd& values) const {
 
 /// D + τ d dᵀ for the dense block D of a singular K, d the dense part of its null vector g: solves K v = f for every f with
 /// gᵀf = 0, as gᵀ times the equation says that d·v = 0.
-void Variation::hold_null(MatrixXd& dense, double zero) {
+void Variation::hold(MatrixXd& dense, const VectorXd& d, double by) {
+  dense += by * d * d.transpose();
+  neutral_motion_ = VectorXd::Zero(size_);
+  expand(d, neutral_motion_);
+}
+
+void Variation::hold_null(MatrixXd& dense) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(dense);
   Eigen::Index nearest = 0;
   const double least = eigen.eigenvalues().cwiseAbs().minCoeff(&nearest);
   const double usual = size_of(eigen.eigenvalues());
-  if (least > zero * usual) return;
-  const VectorXd d = eigen.eigenvectors().col(nearest);
-  dense += usual * d * d.transpose();
-  neutral_motion_ = VectorXd::Zero(size_);
-  expand(d, neutral_motion_);
+  if (least <= rounding * usual) hold(dense, eigen.eigenvectors().col(nearest), usual);
 }
 
 /// Puts the dense unknowns y into v; its interiors, reduced right sides so far, follow.

@@ -151,7 +151,8 @@ ContactEvent length_event(const Profile& profile, int i, bool begins_at_mid) {
   const auto is_touch = [&](const Contact& c) { return !c.edge && (c.joint == i || c.joint == i + 1); };
   const bool between_touches =
       gap && std::count_if(profile.contacts.begin(), profile.contacts.end(), is_touch) == 2;
-  const double shortest = piece.stretch == Stretch::tail ? shortest_tail
+  const double stiffest = profile.material.stiffness.maxCoeff() / profile.material.bending_stiffness;
+  const double shortest = piece.stretch == Stretch::tail ? shortest_tail * stiffest
                           : beside_strand(profile, i)    ? least_beside_strand
                           : between_touches              ? least_between_touches
                                                          : least_length;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
+#include <cmath>
 
 #include "windlass/bvp/collocation_table.hpp"
+#include "windlass/rod/quaternion.hpp"
 
 namespace windlass::equilibrium {
 
@@ -38,6 +40,30 @@ Least least_near(const Piece& piece, const Eigen::VectorXd& values, double s, do
     if (found < least.value) least = {found, begin + length * at};
   }
   return least;
+}
+
+namespace {
+
+/// Least of sign·z on a piece.
+double least_z(const Piece& piece, double sign) {
+  const Eigen::VectorXd z = sign * piece.r.row(2).transpose();
+  Eigen::Index at = 0;
+  const double value = z.minCoeff(&at);
+  const Eigen::Index before = std::max<Eigen::Index>(at - 1, 0), after = std::min(at + 1, z.size() - 1);
+  const auto slope = [&](Eigen::Index k) { return sign * rod::directors(piece.q.col(k))(2, 2); };
+  if (!(slope(before) < 0.0 && slope(after) > 0.0)) return value;
+  return least_near(piece, z, piece.s(at), value, piece.s(before), piece.s(after)).value;
+}
+
+}  // namespace
+
+double extent_in_z(const chain::Profile& shape) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const Piece& piece : shape.pieces) {
+    low = std::min(low, least_z(piece, 1.0));
+    high = std::max(high, -least_z(piece, -1.0));
+  }
+  return high - low;
 }
 
 Dense dense_samples(const Piece& piece, const Eigen::VectorXd& values) {

@@ -14,6 +14,9 @@ struct Least {
 Least least_near(const chain::Piece& piece, const Eigen::VectorXd& values, double s, double value, double lo,
                  double hi);
 
+/// Extent of a shape in z, from where its tangent is level to where it is again: by samples alone it would be that of a mesh.
+double extent_in_z(const chain::Profile& shape);
+
 /// First sample of the element that s lies in; of two that meet there the first.
 Eigen::Index element_at(const chain::Piece& piece, double s);
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "dense_samples.hpp"
 #include "windlass/chain/self_distance.hpp"
 #include "windlass/obstacle/cylinder.hpp"
 #include "windlass/rod/quaternion.hpp"
@@ -187,19 +188,15 @@ void assemble(const chain::Profile& shape, const chain::Profile& whole, const To
   out.arcs = std::move(arcs);
 }
 
-void measure_shape(const chain::Profile& shape, Solution& out) {
-  double low = 1e300, high = -1e300, first = 1e300, last = -1e300;
-  out.tilt = std::asin(std::clamp(rod::directors(shape.at(0.0).q)(2, 2), -1.0, 1.0));
-  for (const ArcRecord& arc : out.arcs) {
-    low = std::min(low, arc.r.row(2).minCoeff());
-    high = std::max(high, arc.r.row(2).maxCoeff());
-  }
+void measure_shape(const chain::Profile& whole, Solution& out) {
+  double first = 1e300, last = -1e300;
+  out.tilt = std::asin(std::clamp(rod::directors(whole.at(0.0).q)(2, 2), -1.0, 1.0));
+  out.z_span = extent_in_z(whole);
   for (const JointRecord& joint : out.joints) {
     if (joint.kind != JointKind::touch && joint.kind != JointKind::edge) continue;
     first = std::min(first, joint.angle);
     last = std::max(last, joint.angle);
   }
-  out.z_span = high - low;
   out.phi_star = last > first ? 0.5 * (last - first) : 0.0;
 }
 
@@ -261,7 +258,7 @@ Solution record(RodProblem& problem, const Vector& x, const Vector& p) {
     out.self_distance = self->distance;
     out.self_s = {self->s1, self->s2};
   }
-  measure_shape(shape, out);
+  measure_shape(whole, out);
   const double copies = topology.half ? 2.0 : 1.0;
   for (int i = 0; i < problem.chain().link_count(); ++i) {
     const bvp::Arc& arc = *problem.chain().link(i).arc;

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "dense_samples.hpp"
 #include "windlass/chain/singular_matrix.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/equilibrium/start.hpp"
@@ -283,19 +284,14 @@ Vector RodProblem::fingerprint(const Vector& x, const Vector& p) {
   const chain::Profile shape = profile(x, p);
   const double copies = topology_.half ? 2.0 : 1.0;  // of the whole rod, whichever chain it is on
   double energy = 0.0, contacts = 0.0;
-  double z_low = HUGE_VAL, z_high = -HUGE_VAL;  // the rod may be anywhere along the axis
   for (int i = 0; i < chain_->link_count(); ++i)
     energy += copies * chain_->link(i).arc->energy(chain_->place(x, at, i).point());
-  for (const chain::Piece& piece : shape.pieces) {
-    z_low = std::min(z_low, piece.r.row(2).minCoeff());
-    z_high = std::max(z_high, piece.r.row(2).maxCoeff());
-  }
   for (const chain::Contact& contact : shape.contacts) contacts += contact.joint > 0 ? copies : 1.0;
   const double tilt = std::abs(std::asin(std::clamp(rod::directors(shape.at(0.0).q)(2, 2), -1.0, 1.0)));
   const bool told_apart =
       rod_.strut && rod_.obstacles.size() > 0;  // mirror images, where the obstacles are no images
   Vector print(told_apart ? 6 : 5);
-  print.head<5>() << target(*chain_, x, at), energy, z_high - z_low, tilt, contacts;
+  print.head<5>() << target(*chain_, x, at), energy, extent_in_z(shape), tilt, contacts;  // in z anywhere
   if (told_apart) print(5) = nearness(shape);
   return print;
 }

@@ -144,9 +144,9 @@ class Chain {
 
   /// Factors [J B; Cᵀ D] at (x, loads); B, C: size()×k, D: k×k. @throws std::runtime_error if singular.
   void factor(const VectorXd& x, const Loads& loads, const MatrixXd& b, const MatrixXd& c, const MatrixXd& d);
-  /// A turn of the whole rod may cost nothing while it is flat. Its eigenvalue then does not count as negative, and where
-  /// it makes the matrix
-  /// singular (a half chain's only if the turn is even) solutions have no part along it.
+  /// A turn of the whole rod may cost nothing while it is flat: about e_x if it is odd under the half-turn, about e_y if even.
+  /// Its eigenvalue then does not count as negative, and where it makes the matrix singular (a half chain's only if the turn
+  /// is even) solutions have no part along it.
   void expect_neutral_turn(contact::Parity parity) { neutral_turn_ = parity; }
   /// A flat rod that nothing pushes out of its plane stays there, exactly, however little that would cost.
   VectorXd solve(const VectorXd& f, const VectorXd& g, bool transposed = false) const;
@@ -294,6 +294,16 @@ class Chain {
   bool is_flat(const std::vector<Placed>& placed) const;
   /// May a variation of this parity be a turn of the whole rod that costs nothing? Only while the rod is flat.
   bool may_turn(contact::Parity parity, const VectorXd& x, const Loads& loads) const;
+  /// Spin of every section about its tangent that keeps clamped ends in their clamps as the rod turns by `turn`.
+  double spin_at_clamps(const VectorXd& x, const Loads& loads, const Eigen::Vector3d& turn) const;
+  /// A turn of the rod by `turn` (a small rotation vector) with such a spin, on the unknowns of joints and forces.
+  VectorXd turn_of_joints(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads,
+                          const Eigen::Vector3d& turn, double spin) const;
+  /// The turn that costs nothing, of unit size, on the unknowns of a dense block and those that hold directions; empty where
+  /// there is none, or the block resists it. With its square the block is regular, all else as before.
+  /// @param asked  borders between the two
+  VectorXd neutral_turn(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads,
+                        const MatrixXd& dense, Eigen::Index asked = 0) const;
   /// Largest entry of a vector at those places.
   double outside(const Eigen::Ref<const VectorXd>& f) const;
 

@@ -57,7 +57,7 @@ class Variation {
   Eigen::Index points() const { return points_; }  ///< numbers in Wᵀv
   /// Negative eigenvalues by the inertia of the factors, without a neutral turn's.
   int negative() const { return negative_; }
-  /// May one of the eigenvalues be zero because a turn of the whole rod costs nothing (Chain::expect_neutral_turn)?
+  /// Is one of the eigenvalues zero because a turn of the whole rod costs nothing (Chain::expect_neutral_turn)?
   bool neutral() const { return neutral_; }
 
   /// Eigenvalues smaller than this are zero, see Chain::neutral_size; the inertia counts them as positive.
@@ -94,7 +94,8 @@ class Variation {
     std::vector<Chain::Border> borders = {};  ///< dense unknowns that act on the interior
   };
   void place(Chain::Purpose purpose, const Chain::Numbering& numbering, int link);
-  void hold_null(MatrixXd& dense, double zero);
+  void hold(MatrixXd& dense, const VectorXd& d, double by);
+  void hold_null(MatrixXd& dense);
   /// Of pivots: the one in the middle, and that of a held direction (bvp::Held) before anything cancels, 1.
   double size_of(const VectorXd& values) const;
   void expand(const VectorXd& y, VectorXd& v) const;
