@@ -108,6 +108,8 @@ std::optional<BranchPoint> polish_simple(Problem& problem, const Options& option
       if (!left) return why = reduced.failure(), std::nullopt;
       BranchPoint point;
       const Reduced::Value& at = gradient.value();
+      if (at.holding() > options.residual_tolerance)
+        return why = "neutral motions must be held here: no solution", std::nullopt;
       // y ≠ 0 at its saddle: an imperfect crossing, whose two parts are sqrt(|y|/|H|) apart.
       if (std::sqrt(std::abs(at.y()[0]) / hessian.norm()) > 1e-5)
         return why = "an imperfect branch point, the branches do not meet", std::nullopt;

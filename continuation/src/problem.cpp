@@ -63,6 +63,11 @@ std::string Problem::unsettled(const Vector& x, const Vector& dx) const {
   return {};
 }
 
+Matrix Problem::neutral_motions(const Vector& x, const Vector& p) {
+  (void)x, (void)p;
+  return Matrix(size(), 0);
+}
+
 bool Problem::settle(Vector&, const Vector&) { return false; }
 
 Vector Problem::fingerprint(const Vector& x, const Vector&) { return x; }

@@ -43,10 +43,15 @@ NullVectors null_vectors(Problem& problem, const Vector& x, const Vector& p, Eig
   null.left = orthonormal(null.left);
   const Vector zero = Vector::Zero(n);
   const double size = options.residual_scale / options.state_scale;  // of J: pivots are chosen among equals
+  const Matrix neutral = problem.neutral_motions(x, p);
+  const Eigen::Index all = k + neutral.cols();
+  Matrix left(n, all), right(n, all);
   for (int pass = 0; pass < passes; ++pass) {
-    problem.factor(x, p, size * null.left, size * null.right, Matrix::Zero(k, k));
+    left << null.left, neutral;
+    right << null.right, neutral;
+    problem.factor(x, p, size * left, size * right, Matrix::Zero(all, all));
     for (Eigen::Index j = 0; j < k; ++j) {
-      const Vector unit = Vector::Unit(k, j);
+      const Vector unit = Vector::Unit(all, j);
       null.right.col(j) = problem.solve(zero, unit).head(n);
       null.left.col(j) = problem.solve_transposed(zero, unit).head(n);
     }
@@ -70,13 +75,24 @@ Reduced::Reduced(Problem& problem, const Options& options, const Vector& x, cons
                  std::vector<Eigen::Index> parameters)
     : problem_(problem), options_(options), null_(std::move(null)), parameters_(std::move(parameters)) {
   const Eigen::Index k = null_.right.cols();
-  borders_.psi = options.residual_scale * null_.left;
-  borders_.c = null_.right;
+  const Matrix neutral = problem.neutral_motions(x, p);
+  const Eigen::Index all = k + neutral.cols();
+  borders_.psi.resize(problem.size(), all);
+  borders_.c.resize(problem.size(), all);
+  borders_.psi << null_.left, neutral;
+  borders_.psi *= options.residual_scale;
+  borders_.c << null_.right, neutral;
   for (Eigen::Index i = 0; i < k; ++i) borders_.c.col(i) /= null_.right.col(i).squaredNorm();
-  borders_.d = Matrix::Zero(k, k);
+  borders_.d = Matrix::Zero(all, all);
+  borders_.g = Vector::Zero(all);
   borders_.state_scale = options.state_scale;
-  last_.it = Iterate{x, Vector::Zero(problem.size()), p, Vector::Zero(k)};
+  last_.it = Iterate{x, Vector::Zero(problem.size()), p, Vector::Zero(all)};
   last_.alpha = Vector::Zero(k);
+}
+
+double Reduced::Value::holding() const {
+  const Eigen::Index held = it.y.size() - alpha.size();
+  return held == 0 ? 0.0 : it.y.tail(held).cwiseAbs().maxCoeff();
 }
 
 std::optional<Reduced::Value> Reduced::at(const Vector& p, const Vector& alpha) {
@@ -93,7 +109,7 @@ std::optional<Reduced::Value> Reduced::at(const Vector& p, const Vector& alpha) 
   }
   value.it.p = p;
   value.alpha = alpha;
-  borders_.g = alpha;
+  borders_.g.head(alpha.size()) = alpha;
   const CorrectorReport report = correct(problem_, borders_, value.it, options_);
   if (!report.converged) {
     failure_ = report.failure;
@@ -113,7 +129,7 @@ std::optional<Reduced::Value> Reduced::at(const Vector& p, const Vector& alpha) 
 }
 
 void Reduced::differentiate(Value& value, bool factored) {
-  const Eigen::Index n = problem_.size(), k = null_.right.cols();
+  const Eigen::Index n = problem_.size(), k = null_.right.cols(), all = borders_.g.size();
   const auto m = static_cast<Eigen::Index>(parameters_.size());
   if (!factored) problem_.factor(value.it.x, value.it.p, borders_.psi, borders_.c, borders_.d);
   // One more correction with this factorisation takes the state to roundoff; y is differenced later.
@@ -122,30 +138,30 @@ void Reduced::differentiate(Value& value, bool factored) {
   if (!correction.allFinite()) throw std::runtime_error("Newton's correction is not finite");
   value.it.x = problem_.retract(value.it.x, correction.head(n));
   value.it.u += correction.head(n);
-  value.it.y += correction.tail(k);
+  value.it.y += correction.tail(all);
   value.y_alpha.resize(k, k);
   value.x_alpha.resize(n, k);
   for (Eigen::Index j = 0; j < k; ++j) {
-    const Vector derivative = problem_.solve(Vector::Zero(n), Vector::Unit(k, j));
+    const Vector derivative = problem_.solve(Vector::Zero(n), Vector::Unit(all, j));
     value.x_alpha.col(j) = derivative.head(n);
-    value.y_alpha.col(j) = derivative.tail(k);
+    value.y_alpha.col(j) = derivative.segment(n, k);
   }
   value.y_parameter.resize(k, m);
   value.x_parameter.resize(n, m);
   for (Eigen::Index j = 0; j < m; ++j) {
     const Vector f =
         problem_.parameter_derivative(value.it.x, value.it.p, parameters_[static_cast<std::size_t>(j)]);
-    const Vector derivative = problem_.solve(-f, Vector::Zero(k));
+    const Vector derivative = problem_.solve(-f, Vector::Zero(all));
     value.x_parameter.col(j) = derivative.head(n);
-    value.y_parameter.col(j) = derivative.tail(k);
+    value.y_parameter.col(j) = derivative.segment(n, k);
   }
 }
 
 NullVectors Reduced::refreshed(const Value& value) {
-  const Eigen::Index n = problem_.size(), k = null_.right.cols();
+  const Eigen::Index n = problem_.size(), k = null_.right.cols(), all = borders_.g.size();
   NullVectors null{orthonormal(value.x_alpha), Matrix(n, k)};
   for (Eigen::Index j = 0; j < k; ++j)
-    null.left.col(j) = problem_.solve_transposed(Vector::Zero(n), Vector::Unit(k, j)).head(n);
+    null.left.col(j) = problem_.solve_transposed(Vector::Zero(n), Vector::Unit(all, j)).head(n);
   null.left = orthonormal(null.left);
   scale_to_metric(problem_, null.right, options_.state_scale);
   return null;

@@ -189,7 +189,7 @@ void Chain::factor(const VectorXd& x, const Loads& loads, const MatrixXd& b_aske
       add_border(column, 1.0);
     }
   borders_ = d.rows();
-  flat_ = is_flat(placed);
+  flat_ = is_flat(placed, flat_to);
   for (Eigen::Index j = 0; j < asked_; ++j)
     flat_ = flat_ && outside(b.col(j)) < nothing && outside(c.col(j)) < nothing;
   const Eigen::Index n = dense_size_, k = borders_;

@@ -42,9 +42,8 @@ std::vector<Eigen::Index> Chain::out_of_plane() const {
   return out;
 }
 
-bool Chain::is_flat(const std::vector<Placed>& placed) const {
+bool Chain::is_flat(const std::vector<Placed>& placed, double within) const {
   if (outside_.empty()) return false;
-  constexpr double rounding = 1e-9;  // [ρ, rad]
   for (const auto& joint : joints_)
     if (joint->surface() && !joint->surface()->keeps_flat()) return false;
   for (int i = 0; i < link_count(); ++i) {
@@ -52,22 +51,22 @@ bool Chain::is_flat(const std::vector<Placed>& placed) const {
     const int size = links_[i].arc->ambient();
     if (size != frame && size != surface) continue;
     const auto flat = [&](const double* q) {
-      return off_plane(Eigen::Map<const Eigen::VectorXd>(q, size)) < rounding;
+      return off_plane(Eigen::Map<const Eigen::VectorXd>(q, size)) < within;
     };
     for (const contact::Attachment* at : {&p.left, &p.right})
-      if (std::abs(at->x(at->x.size() - 1)) > rounding || !flat(at->q.data())) return false;
-    if (std::abs(p.n(p.n.size() - 1)) > rounding) return false;
+      if (std::abs(at->x(at->x.size() - 1)) > within || !flat(at->q.data())) return false;
+    if (std::abs(p.n(p.n.size() - 1)) > within) return false;
     for (int k = 0; k < links_[i].arc->interior_nodes(); ++k)
       if (!flat(p.interior + k * size)) return false;
   }
   return true;
 }
 
-bool Chain::may_turn(contact::Parity parity, const VectorXd& x, const Loads& loads) const {
+bool Chain::may_turn(contact::Parity parity, const VectorXd& x, const Loads& loads, double within) const {
   if (!neutral_turn_ || (half() && *neutral_turn_ != parity)) return false;
   std::vector<Placed> placed;
   for (int i = 0; i < link_count(); ++i) placed.push_back(place(x, loads, i));
-  return is_flat(placed);
+  return is_flat(placed, within);
 }
 
 double Chain::outside(const Eigen::Ref<const VectorXd>& f) const {

@@ -29,17 +29,19 @@ Vector3d increment(const rod::Quaternion& q, const Vector3d& turn, double spin) 
 
 }  // namespace
 
-double Chain::spin_at_clamps(const VectorXd& x, const Loads& loads, const Vector3d& turn) const {
+Chain::Turn Chain::turn_to_expect(const VectorXd& x, const Loads& loads) const {
+  Turn turn{*neutral_turn_ == Parity::odd ? Vector3d::UnitX() : Vector3d::UnitY(), 0.0};
   for (const int j : {0, joint_count() - 1}) {
     if (joints_[j]->kind() != JointKind::end) continue;
     const Attachment end = attachment(Purpose::equilibrium, x, loads, j, j == 0 ? Side::right : Side::left);
-    if (end.dq.isZero(0.0)) return -turn.dot(rod::directors(Eigen::Vector4d(end.q)).col(2));
+    const bool clamped = end.dq.isZero(0.0);
+    if (clamped) turn.spin = -turn.axis.dot(rod::directors(Eigen::Vector4d(end.q)).col(2));
   }
-  return 0.0;
+  return turn;
 }
 
 VectorXd Chain::turn_of_joints(Purpose purpose, const Numbering& numbering, const VectorXd& x,
-                               const Loads& loads, const Vector3d& turn, double spin) const {
+                               const Loads& loads, const Turn& turn) const {
   VectorXd motion = VectorXd::Zero(numbering.size);
   for (int j = 0; j < joint_count(); ++j) {
     const Attachment at = attachment(purpose, x, loads, j, j < link_count() ? Side::right : Side::left);
@@ -48,12 +50,12 @@ VectorXd Chain::turn_of_joints(Purpose purpose, const Numbering& numbering, cons
     MatrixXd by(6, count);
     Eigen::Matrix<double, 6, 1> change;
     by << at.dq, at.dx;
-    change << increment(at.q, turn, spin), turn.cross(Vector3d(at.x));
+    change << increment(at.q, turn.axis, turn.spin), turn.axis.cross(Vector3d(at.x));
     motion.segment(numbering.coordinate[j], count) = by.colPivHouseholderQr().solve(change);
   }
   for (int i = 0; i < link_count(); ++i)
     if (numbering.force[i] >= 0)
-      motion.segment<3>(numbering.force[i]) = turn.cross(Vector3d(force(x, loads, i)));
+      motion.segment<3>(numbering.force[i]) = turn.axis.cross(Vector3d(force(x, loads, i)));
   return motion;
 }
 
@@ -61,15 +63,14 @@ VectorXd Chain::neutral_turn(Purpose purpose, const Numbering& numbering, const 
                              const Loads& loads, const MatrixXd& dense, Eigen::Index asked) const {
   if (dense.rows() == 0 || !may_turn(purpose == Purpose::odd ? Parity::odd : Parity::even, x, loads))
     return {};
-  const Vector3d turn = *neutral_turn_ == Parity::odd ? Vector3d::UnitX() : Vector3d::UnitY();
-  const double spin = spin_at_clamps(x, loads, turn);
+  const Turn turn = turn_to_expect(x, loads);
   VectorXd motion = VectorXd::Zero(dense.rows());
-  motion.head(numbering.size) = turn_of_joints(purpose, numbering, x, loads, turn, spin);
+  motion.head(numbering.size) = turn_of_joints(purpose, numbering, x, loads, turn);
   Eigen::Index row = numbering.size + asked;
   for (int i = 0; i < link_count(); ++i)
     for (const bvp::Held& held : links_[i].arc->held()) {
       const double* node = interior(x, i) + held.first / links_[i].arc->tangent() * links_[i].arc->ambient();
-      const Vector3d moved = increment(Eigen::Map<const Eigen::Vector4d>(node), turn, spin);
+      const Vector3d moved = increment(Eigen::Map<const Eigen::Vector4d>(node), turn.axis, turn.spin);
       motion(row++) = -held.direction.dot(moved);
     }
   motion.normalize();
@@ -77,6 +78,19 @@ VectorXd Chain::neutral_turn(Purpose purpose, const Numbering& numbering, const 
   resisted.segment(numbering.size, asked).setZero();
   if (!(resisted.cwiseAbs().maxCoeff() < nearly_zero * usual_size(dense))) return {};
   return motion;
+}
+
+VectorXd Chain::nearly_neutral_turn(const VectorXd& x, const Loads& loads) const {
+  constexpr double nearly = 0.1;  // out of the plane by a, the turn costs some a² of the usual
+  if (!may_turn(Parity::even, x, loads, nearly)) return {};
+  const Turn turn = turn_to_expect(x, loads);
+  VectorXd motion = VectorXd::Zero(size_);
+  motion.head(dense_size_) = turn_of_joints(Purpose::equilibrium, numbering_, x, loads, turn);
+  for (int i = 0; i < link_count(); ++i)
+    for (int k = 0; k < links_[i].arc->interior_nodes(); ++k)
+      motion.segment<3>(interior_row_[i] + 3 * k) =
+          increment(Eigen::Map<const Eigen::Vector4d>(interior(x, i) + 4 * k), turn.axis, turn.spin);
+  return motion.normalized();
 }
 
 double usual_size(const MatrixXd& dense) { return median(dense.cwiseAbs().rowwise().maxCoeff()); }

@@ -32,6 +32,12 @@ int RodProblem::breaking_index(const Vector& x, const Vector& p) {
   return breaking_index_ = count(x, p, contact::Parity::odd, breaking_index_);
 }
 
+continuation::Matrix RodProblem::neutral_motions(const Vector& x, const Vector& p) {
+  const Loads at = loads(p);  // may rebuild the chain
+  const Vector turn = chain_->nearly_neutral_turn(x, at);
+  return turn.size() > 0 ? continuation::Matrix(turn) : continuation::Matrix(size(), 0);
+}
+
 bool RodProblem::degenerate(const Vector& x, const Loads& at) const {
   constexpr double nothing = 1e-7;
   if (topology_.mid_touch && chain_->touch_force(x, at, 0) < nothing) return true;

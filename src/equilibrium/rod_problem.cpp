@@ -287,11 +287,14 @@ Vector RodProblem::fingerprint(const Vector& x, const Vector& p) {
   for (int i = 0; i < chain_->link_count(); ++i)
     energy += copies * chain_->link(i).arc->energy(chain_->place(x, at, i).point());
   for (const chain::Contact& contact : shape.contacts) contacts += contact.joint > 0 ? copies : 1.0;
-  const double tilt = std::abs(std::asin(std::clamp(rod::directors(shape.at(0.0).q)(2, 2), -1.0, 1.0)));
+  // The middle of the contacts, not of the rod: a long one may lie anywhere along itself.
+  const bool has_middle = topology_.half || shape.contacts.empty();
+  const double middle = has_middle ? 0.0 : 0.5 * (shape.contacts.front().s + shape.contacts.back().s);
+  const double tilt = std::abs(std::asin(std::clamp(rod::directors(shape.at(middle).q)(2, 2), -1.0, 1.0)));
   const bool told_apart =
       rod_.strut && rod_.obstacles.size() > 0;  // mirror images, where the obstacles are no images
   Vector print(told_apart ? 6 : 5);
-  print.head<5>() << target(*chain_, x, at), energy, extent_in_z(shape), tilt, contacts;  // in z anywhere
+  print.head<5>() << target(*chain_, x, at), energy, extent_in_z(shape), tilt, contacts;
   if (told_apart) print(5) = nearness(shape);
   return print;
 }

@@ -144,6 +144,10 @@ class Problem {
   /// Jacobian no branch leaves.
   virtual std::string unsettled(const Vector& x, const Vector& dx) const;
 
+  /// Motions that cost nothing at solutions close to x, unit columns of increments (n×e): there J and its transpose have them
+  /// in their kernel though no branch leaves along them, and where branches cross they are held. The default is none.
+  virtual Matrix neutral_motions(const Vector& x, const Vector& p);
+
   /// Numbers that do not depend on discretisation, nor on which of two mirror images x is: two states with
   /// equal fingerprints are the same solution (up to mirror image). The default is x itself.
   virtual Vector fingerprint(const Vector& x, const Vector& p);

@@ -14,16 +14,11 @@ struct NullVectors {
   Matrix left;   ///< Jᵀ ψ ≈ 0; n×k, orthonormal
 };
 
-/// Null vectors, in the units of the options, by iterating [J ψ; φᵀ 0][φ' ; g] = [0; 1] and its transpose, from fixed starting borders.
+/// Null vectors other than neutral motions, in the units of the options, by iterating [J ψ; φᵀ 0][φ' ; g] = [0; 1] and its transpose, from fixed starting borders.
 /// Regular also where J is singular; converges like inverse iteration where it is not.
 /// @throws std::runtime_error if the bordered matrix is singular (the kernel has more than k dimensions)
 NullVectors null_vectors(Problem& problem, const Vector& x, const Vector& p, Eigen::Index k,
                          const Options& options, int passes = 3);
-
-/// y_α of the reduction below with these null vectors (the first columns): zero where J is singular, smooth along a
-/// branch. One factorisation. @throws as Problem::factor
-double nearness(Problem& problem, const Vector& x, const Vector& p, const NullVectors& null,
-                const Options& options);
 
 /// y_α of the reduction below with these null vectors (the first columns): zero where J is singular, smooth along a
 /// branch. One factorisation. @throws as Problem::factor
@@ -37,6 +32,9 @@ double nearness(Problem& problem, const Vector& x, const Vector& p, const NullVe
 /// solved for x and y at given p, α (k entries each). It is regular at the singular point, and F(x, p) = 0 ⇔
 /// y = 0. Every simple singularity is a statement about y:  fold y = y_α = 0;  branch point y = y_α = y_λ =
 /// 0.
+///
+/// Where motions cost nothing (Problem::neutral_motions) one more border each holds them; the forces that this takes must
+/// vanish.
 class Reduced {
  public:
   struct Value {
@@ -46,7 +44,9 @@ class Reduced {
     Matrix x_alpha;      ///< ∂x/∂α; n×k
     Matrix y_parameter;  ///< ∂y/∂p_j, one column a parameter asked for
     Matrix x_parameter;  ///< ∂x/∂p_j
-    const Vector& y() const { return it.y; }
+    Vector y() const { return it.y.head(alpha.size()); }
+    /// Largest of the forces that hold neutral motions, in the unit of F.
+    double holding() const;
   };
 
   /// @param parameters  for which derivatives are wanted

@@ -148,6 +148,8 @@ class Chain {
   /// Its eigenvalue then does not count as negative, and where it makes the matrix singular (a half chain's only if the turn
   /// is even) solutions have no part along it.
   void expect_neutral_turn(contact::Parity parity) { neutral_turn_ = parity; }
+  /// That turn as an increment of unit size, where the rod is flat or nearly so; empty: none.
+  VectorXd nearly_neutral_turn(const VectorXd& x, const Loads& loads) const;
   /// A flat rod that nothing pushes out of its plane stays there, exactly, however little that would cost.
   VectorXd solve(const VectorXd& f, const VectorXd& g, bool transposed = false) const;
   int determinant_sign() const { return determinant_sign_; }
@@ -289,16 +291,22 @@ class Chain {
   MatrixXd variation_matrix(Purpose purpose, const Numbering& numbering, const VectorXd& x,
                             const Loads& loads) const;
 
+  static constexpr double flat_to = 1e-9;  ///< rounding [ρ, rad]
   /// Places in an increment that move a flat rod out of its plane.
   std::vector<Eigen::Index> out_of_plane() const;
-  bool is_flat(const std::vector<Placed>& placed) const;
+  /// @param within  [ρ, rad]
+  bool is_flat(const std::vector<Placed>& placed, double within) const;
   /// May a variation of this parity be a turn of the whole rod that costs nothing? Only while the rod is flat.
-  bool may_turn(contact::Parity parity, const VectorXd& x, const Loads& loads) const;
-  /// Spin of every section about its tangent that keeps clamped ends in their clamps as the rod turns by `turn`.
-  double spin_at_clamps(const VectorXd& x, const Loads& loads, const Eigen::Vector3d& turn) const;
-  /// A turn of the rod by `turn` (a small rotation vector) with such a spin, on the unknowns of joints and forces.
+  bool may_turn(contact::Parity parity, const VectorXd& x, const Loads& loads, double within = flat_to) const;
+  /// Axis of the turn, and the spin of every section about its tangent that keeps clamped ends in their clamps meanwhile.
+  struct Turn {
+    Eigen::Vector3d axis;
+    double spin;
+  };
+  Turn turn_to_expect(const VectorXd& x, const Loads& loads) const;
+  /// A turn of the rod on the unknowns of joints and forces, by a unit angle.
   VectorXd turn_of_joints(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads,
-                          const Eigen::Vector3d& turn, double spin) const;
+                          const Turn& turn) const;
   /// The turn that costs nothing, of unit size, on the unknowns of a dense block and those that hold directions; empty where
   /// there is none, or the block resists it. With its square the block is regular, all else as before.
   /// @param asked  borders between the two

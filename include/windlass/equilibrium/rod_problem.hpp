@@ -91,6 +91,9 @@ class RodProblem final : public continuation::Problem {
   /// d²Π/dδ² of a slide of the whole rod along itself; see Chain::sliding_stiffness.
   double sliding_stiffness(const Vector& x, const Vector& p);
 
+  /// A turn of the whole rod; see Chain::expect_neutral_turn.
+  continuation::Matrix neutral_motions(const Vector& x, const Vector& p) override;
+
   chain::Profile profile(const Vector& x, const Vector& p);
   /// Arclengths of the chain's joints; the ends of infinite tails where `shape`, the state's profile, ends.
   std::vector<double> joint_places(const Vector& x, const Vector& p, const chain::Profile& shape);
