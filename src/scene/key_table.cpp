@@ -147,8 +147,9 @@ std::vector<Key> rod_keys() {
       .kind = ValueKind::truth,
       .range = any,
       .choices = {},
-      .help = "may the rod touch itself? true, the default where rod.radius > 0: its strands keep 2 rod.radius "
-              "apart; false: a thin rod, which passes through itself",
+      .help =
+          "may the rod touch itself? true, the default where rod.radius > 0: its strands keep 2 rod.radius "
+          "apart; false: a thin rod, which passes through itself",
       .get = [](const Scene& scene) -> std::optional<double> { return scene.self_contact ? 1.0 : 0.0; },
       .set = [](Scene& scene, double value) { scene.self_contact = value != 0.0; }};
   return {

@@ -42,26 +42,21 @@ std::optional<Vector3d> along_all(const std::vector<scene::Wall>& walls) {
 }
 
 /// The virial of all contact forces about the axis: with n·t = H − m·u/2 along the rod,
-/// R_tot + 2r Σ F_self = H L − E − T (sum of the projections of the ends' places on their pulls). Of rods without natural
-/// strains. (For long tails H is T, and this the identity of scaling all lengths.)
+/// R_tot + 2r Σ F_self = H L − E − [n·r] from end to end. Of rods without natural strains. (For long tails H is T, n·r the
+/// pull times the projection of the end's place on it, and this the identity of scaling all lengths.)
 void check_scaling(const Solution& solution, const scene::Scene& scene, const Scales& scales,
                    CheckList& list) {
   const bool strained = scene.rod.natural_curvature != 0.0 || scene.rod.natural_twist != 0.0;
   if (!solution.has_cylinder || strained || solution.joints.back().kind == JointKind::infinity) return;
-  for (const auto& joint : solution.joints)
-    if (joint.holding != 0.0) return;
-  const Vector3d right(std::cos(solution.phi / 2), std::sin(solution.phi / 2), 0.0),
-      left(-right.x(), right.y(), 0.0);
   const ArcRecord &first = solution.arcs.front(), &last = solution.arcs.back();
   const double length = last.s(last.s.size() - 1) - first.s(0);
   const double h = Stiffness(scene.rod).hamiltonian(last_section(last));
-  const double ends = last.r.rightCols<1>().dot(right) + first.r.col(0).dot(left);
-  const double pulls = h * length - solution.T * ends,
+  const double ends = last.r.rightCols<1>().dot(last.n.rightCols<1>()) - first.r.col(0).dot(first.n.col(0));
+  const double pulls = h * length - ends,
                forces = solution.R_tot + 2.0 * scene.rod_radius * solution.self_force;
   const double size = std::max({scales.force, std::abs(pulls), forces, solution.energy});
-  list.at_most(
-      "scaling", std::abs(forces - (pulls - solution.energy)) / size, tight,
-      "R_tot + 2r (forces between strands) against H L - T (projections of the ends) - energy, relative");
+  list.at_most("scaling", std::abs(forces - (pulls - solution.energy)) / size, tight,
+               "R_tot + 2r (forces between strands) against H L - energy - change of n·r, relative");
 }
 
 }  // namespace

@@ -35,6 +35,7 @@ BOOST_AUTO_TEST_CASE(a_branch_is_on_disk_and_on_the_closed_form) {
                           "z_span",
                           "energy",
                           "self_distance",
+                          "self_force",
                           "index",
                           "eigenvalue_1",
                           "ds",

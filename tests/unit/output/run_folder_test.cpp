@@ -122,19 +122,19 @@ BOOST_AUTO_TEST_CASE(columns_are_those_promised) {
   const test::TemporaryFolder temporary;
   auto scene = test::capstan_scene(1.0, two_pi);
   RunWriter::create(temporary / "capstan", scene, {});
-  BOOST_TEST(
-      content(temporary / "capstan/branches.csv") ==
-      "branch,point,label,type,T,phi,R_tot,phi_star,tilt,z_span,energy,self_distance,index,eigenvalue_1,ds,"
-      "newton_iterations,error_estimate,topology\n");
+  BOOST_TEST(content(temporary / "capstan/branches.csv") ==
+             "branch,point,label,type,T,phi,R_tot,phi_star,tilt,z_span,energy,self_distance,self_force,index,"
+             "eigenvalue_1,ds,"
+             "newton_iterations,error_estimate,topology\n");
   scene.has_cylinder = false;
   WriterOptions options;
   options.extra_parameter = "ends.twist";
   RunWriter::create(temporary / "strut", scene, options);
-  BOOST_TEST(
-      content(temporary / "strut/branches.csv") ==
-      "branch,point,label,type,T,phi,end_force,end_moment,shortening,tilt,z_span,energy,self_distance,index,"
-      "eigenvalue_1,ds,"
-      "newton_iterations,error_estimate,topology,ends.twist\n");
+  BOOST_TEST(content(temporary / "strut/branches.csv") ==
+             "branch,point,label,type,T,phi,end_force,end_moment,shortening,tilt,z_span,energy,self_distance,"
+             "self_force,index,"
+             "eigenvalue_1,ds,"
+             "newton_iterations,error_estimate,topology,ends.twist\n");
 }
 
 BOOST_AUTO_TEST_CASE(no_file_holds_nan_or_inf) {

@@ -34,6 +34,7 @@ BOOST_AUTO_TEST_CASE(the_object_has_the_promised_keys) {
                                              "z_span",
                                              "energy",
                                              "self_distance",
+                                             "self_force",
                                              "contact",
                                              "stability",
                                              "invariants",

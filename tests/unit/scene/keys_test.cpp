@@ -32,7 +32,7 @@ BOOST_AUTO_TEST_CASE(every_numeric_key_can_be_set_and_read) {
     BOOST_TEST(!(scene == Scene{}), key.name << " does not reach the scene");
     ++count;
   }
-  BOOST_TEST(count == 12);
+  BOOST_TEST(count == 13);
 }
 
 BOOST_AUTO_TEST_CASE(a_key_reaches_its_own_member) {

@@ -134,6 +134,7 @@ inline Solution endless_helix(double psi, double length = 6.0, int samples = 31)
   Solution solution;
   solution.T = 1.5 * std::pow(c, 4), solution.phi = 2 * std::numbers::pi, solution.converged = true;
   solution.R_tot = line.force;
+  solution.energy = 0.5 * std::pow(c, 4) * length;  // bending alone: B = 1, κ = cos²ψ
   solution.topology = "line";
   solution.arcs = {line};
   solution.joints.resize(2);
