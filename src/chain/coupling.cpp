@@ -12,15 +12,6 @@ using contact::SmallMatrix;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-namespace {
-
-/// Q: the half-turn about e_y, which maps a half chain to the other, or the identity.
-Vector3d image_signs(const Coupling& c) {
-  return c.mirrored ? Vector3d(-1.0, 1.0, -1.0) : Vector3d(1.0, 1.0, 1.0);
-}
-
-}  // namespace
-
 void Chain::couple() {
   coupling_of_.assign(joints_.size(), -1);
   for (std::size_t k = 0; k < couplings_.size(); ++k)
@@ -33,9 +24,10 @@ void Chain::couple() {
 Chain::Crossing Chain::crossing(const VectorXd& x, int coupling) const {
   const Coupling& c = couplings_[coupling];
   Crossing out;
+  out.coupling = c;
   out.first = joints_[c.first]->centreline(coordinates(x, c.first));
   out.second = joints_[c.second]->centreline(coordinates(x, c.second));
-  const Vector3d image = image_signs(c);
+  const Vector3d image = c.image();
   out.second.r = image.cwiseProduct(out.second.r);
   out.second.t = image.cwiseProduct(out.second.t);
   out.second.dr = image.asDiagonal() * out.second.dr;
@@ -92,7 +84,7 @@ void Chain::add_couplings(Purpose purpose, const Numbering& numbering, const Vec
       return out;
     };
     const End ends[] = {end(c.first, at.first, 1.0, -push * e),
-                        end(c.second, at.second, -image, push * image_signs(c).cwiseProduct(e))};
+                        end(c.second, at.second, -image, push * c.image().cwiseProduct(e))};
     for (const End& a : ends) {
       const Eigen::Index first = numbering.coordinate[a.joint], count = a.dr.cols();
       for (const End& b : ends)

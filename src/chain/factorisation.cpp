@@ -153,8 +153,8 @@ VectorXd Chain::phase_motion(Purpose purpose, const Numbering& numbering, const 
           Eigen::Vector3d::UnitX().cross(Eigen::Vector3d(force(x, loads, i)));
     const Eigen::Index first = interior_row_[i] + numbering.size - dense_size_;
     for (int k = 0; k < links_[i].arc->interior_nodes(); ++k)
-      motion.segment<3>(first + 3 * k) =
-          rod::turn_increment(Eigen::Map<const Eigen::Vector4d>(interior(x, i) + 4 * k), 1.0, spin);
+      motion.segment<3>(first + 3 * k) = rod::turn_increment(
+          Eigen::Map<const Eigen::Vector4d>(interior(x, i) + 4 * k), Eigen::Vector3d::UnitX(), spin);
   }
   return motion;
 }

@@ -20,15 +20,6 @@ double median(VectorXd values) {
   return *middle;
 }
 
-namespace {
-
-/// Of a frame, in body components, as half the angle; see rod::turn_increment.
-Vector3d increment(const rod::Quaternion& q, const Vector3d& turn, double spin) {
-  return 0.5 * (rod::directors(q).transpose() * turn + spin * Vector3d::UnitZ());
-}
-
-}  // namespace
-
 Chain::Turn Chain::turn_to_expect(const VectorXd& x, const Loads& loads) const {
   Turn turn{*neutral_turn_ == Parity::odd ? Vector3d::UnitX() : Vector3d::UnitY(), 0.0};
   for (const int j : {0, joint_count() - 1}) {
@@ -50,7 +41,7 @@ VectorXd Chain::turn_of_joints(Purpose purpose, const Numbering& numbering, cons
     MatrixXd by(6, count);
     Eigen::Matrix<double, 6, 1> change;
     by << at.dq, at.dx;
-    change << increment(at.q, turn.axis, turn.spin), turn.axis.cross(Vector3d(at.x));
+    change << rod::turn_increment(at.q, turn.axis, turn.spin), turn.axis.cross(Vector3d(at.x));
     motion.segment(numbering.coordinate[j], count) = by.colPivHouseholderQr().solve(change);
   }
   for (int i = 0; i < link_count(); ++i)
@@ -70,7 +61,8 @@ VectorXd Chain::neutral_turn(Purpose purpose, const Numbering& numbering, const 
   for (int i = 0; i < link_count(); ++i)
     for (const bvp::Held& held : links_[i].arc->held()) {
       const double* node = interior(x, i) + held.first / links_[i].arc->tangent() * links_[i].arc->ambient();
-      const Vector3d moved = increment(Eigen::Map<const Eigen::Vector4d>(node), turn.axis, turn.spin);
+      const Vector3d moved =
+          rod::turn_increment(Eigen::Map<const Eigen::Vector4d>(node), turn.axis, turn.spin);
       motion(row++) = -held.direction.dot(moved);
     }
   motion.normalize();
@@ -88,8 +80,8 @@ VectorXd Chain::nearly_neutral_turn(const VectorXd& x, const Loads& loads) const
   motion.head(dense_size_) = turn_of_joints(Purpose::equilibrium, numbering_, x, loads, turn);
   for (int i = 0; i < link_count(); ++i)
     for (int k = 0; k < links_[i].arc->interior_nodes(); ++k)
-      motion.segment<3>(interior_row_[i] + 3 * k) =
-          increment(Eigen::Map<const Eigen::Vector4d>(interior(x, i) + 4 * k), turn.axis, turn.spin);
+      motion.segment<3>(interior_row_[i] + 3 * k) = rod::turn_increment(
+          Eigen::Map<const Eigen::Vector4d>(interior(x, i) + 4 * k), turn.axis, turn.spin);
   return motion.normalized();
 }
 

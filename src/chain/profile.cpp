@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "profile_contacts.hpp"
 #include "windlass/bvp/collocation_table.hpp"
 #include "windlass/contact/spatial_joints.hpp"
 #include "windlass/obstacle/cylinder.hpp"
@@ -209,112 +210,14 @@ Piece sample_link(const Chain& chain, const RodKind& rod, const VectorXd& x, con
   return piece;
 }
 
-/// Outward force on the rod at a contact joint, from the internal forces on its two sides.
-double contact_force(const Vector3d& n_before, const Vector3d& n_after, const Vector3d& normal) {
-  return (n_before - n_after).dot(normal);
-}
+}  // namespace
 
-/// n(−s) at a symmetry point: the half-turn about e_y of n(s), reversed.
-Vector3d reflected(const Vector3d& n) { return {n(0), -n(1), n(2)}; }
-
-/// How often a contact counts on the whole rod.
-double copies(const Topology& topology, int joint) {
-  return topology.half && !(topology.mid_touch && joint == 0) ? 2.0 : 1.0;
-}
-
-Vector3d curvature_of(const RodKind& rod, const Piece& piece, Eigen::Index k) {
-  const Eigen::Matrix3d d = rod::directors(piece.q.col(k));
-  const Vector3d u = rod.natural + (d.transpose() * piece.m.col(k)).cwiseQuotient(rod.stiffness);
+Vector3d curvature(const rod::Material& material, const Piece& piece, Eigen::Index sample) {
+  const Eigen::Matrix3d d = rod::directors(piece.q.col(sample));
+  const Vector3d u =
+      material.natural + (d.transpose() * piece.m.col(sample)).cwiseQuotient(material.stiffness);
   return u(1) * d.col(0) - u(0) * d.col(1);
 }
-
-/// Contacts with an obstacle.
-Contact obstacle_contact(const Chain& chain, const Topology& topology, const RodKind& rod, const VectorXd& x,
-                         int j, const std::vector<Piece>& pieces) {
-  Contact c;
-  const Joint& joint = chain.joint(j);
-  const obstacle::Chart here = joint.chart(chain.coordinates(x, j));
-  c.edge = joint.kind() == JointKind::edge;
-  c.obstacle = topology.obstacle(j);
-  c.angle = joint.surface()->turn(joint.on_surface(chain.coordinates(x, j)));
-  c.r = here.r;
-  c.normal = c.surface_normal = here.normal;
-  const Piece& after = pieces[j];
-  const Vector3d n_before = j > 0 ? Vector3d(pieces[j - 1].n.rightCols<1>()) : reflected(after.n.col(0));
-  c.force = contact_force(n_before, after.n.col(0), c.normal);
-  const Vector3d t = rod::directors(after.q.col(0)).col(2);
-  const Eigen::Vector2d along = here.tangents.transpose() * t;
-  c.gap_curvature = curvature_of(rod, after, 0).dot(c.normal) + along.dot(here.bend * along);
-  return c;
-}
-
-int coupling_at(const Chain& chain, int joint) {
-  const std::vector<Coupling>& all = chain.couplings();
-  const auto found = std::find_if(all.begin(), all.end(),
-                                  [&](const Coupling& c) { return c.first == joint || c.second == joint; });
-  return found == all.end() ? -1 : static_cast<int>(found - all.begin());
-}
-
-Vector3d image_of(const Coupling& c) { return c.mirrored ? Vector3d(-1.0, 1.0, -1.0) : Vector3d::Ones(); }
-
-/// Contacts with another strand. Of the distance D(s₁, s₂) at its least: D₁₁ = 1/D + e·r₁″, D₂₂ = 1/D − e·r₂″,
-/// D₁₂ = −t₁·t₂/D.
-Contact strand_contact(const Chain& chain, const Topology& topology, const RodKind& rod, const VectorXd& x,
-                       int j, int coupling, const std::vector<Piece>& pieces) {
-  const Coupling& with = chain.couplings()[coupling];
-  const Chain::Crossing at = chain.crossing(x, coupling);
-  const Vector3d image = image_of(with);
-  Contact c;
-  c.obstacle = -1;
-  c.coupling = coupling;
-  c.r = chain.joint(j).centreline(chain.coordinates(x, j)).r;
-  c.angle = obstacle::Cylinder::angle(c.r);
-  c.normal = j == with.first ? at.direction : Vector3d(-image.cwiseProduct(at.direction));
-  c.force = chain.strand_force(x, coupling);
-  if (const obstacle::Surface* surface = chain.joint(j).surface()) {
-    const Vector3d jump = pieces[j - 1].n.rightCols<1>() - pieces[j].n.col(0);
-    c.reaction = (jump - c.force * c.normal).dot(surface->normal(c.r));
-    c.obstacle = topology.obstacle(j);
-    c.surface_normal = surface->normal(c.r);
-  }
-  const Vector3d first = curvature_of(rod, pieces[with.first], 0),
-                 second = image.cwiseProduct(curvature_of(rod, pieces[with.second], 0));
-  Eigen::Matrix2d bend;
-  bend(0, 0) = 1.0 / at.distance + at.direction.dot(first);
-  bend(1, 1) = 1.0 / at.distance - at.direction.dot(second);
-  bend(0, 1) = bend(1, 0) = -at.first.t.dot(at.second.t) / at.distance;
-  c.gap_curvature = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(bend).eigenvalues()(0);
-  return c;
-}
-
-/// Strands have no obstacle to count turns round: beyond one the rod goes on where it is.
-void carry_turns(std::vector<Contact>& contacts, std::vector<Piece>& pieces) {
-  const auto turns = [](double from, double to) {
-    return 2.0 * M_PI * std::round((from - to) / (2.0 * M_PI));
-  };
-  const auto last = [](const Piece& piece) { return piece.angle(piece.angle.size() - 1); };
-  for (Contact& c : contacts) {
-    if (c.coupling < 0) continue;
-    Piece &before = pieces[c.joint - 1], &after = pieces[c.joint];
-    if (c.s > 0.0)
-      after.angle.array() += turns(last(before), after.angle(0));
-    else
-      before.angle.array() += turns(after.angle(0), last(before));
-    c.angle += turns(after.angle(0), c.angle);
-  }
-}
-
-/// Part along `normal` of the force of another strand at a joint, on the rod.
-double strand_push(const Chain& chain, const VectorXd& x, int joint, const Vector3d& normal) {
-  const int k = coupling_at(chain, joint);
-  if (k < 0) return 0.0;
-  const Coupling& with = chain.couplings()[k];
-  const Vector3d e = chain.crossing(x, k).direction;
-  const Vector3d on_this = joint == with.first ? e : Vector3d(-image_of(with).cwiseProduct(e));
-  return chain.strand_force(x, k) * on_this.dot(normal);
-}
-
-}  // namespace
 
 Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod, const VectorXd& x,
                 const Loads& loads) {
@@ -326,34 +229,8 @@ Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod
   for (int i = 0; i < chain.link_count(); ++i)
     out.pieces.push_back(sample_link(chain, rod, x, loads, i, topology));
   unroll(out.pieces);
-  for (int j = 0; j < chain.joint_count(); ++j) {
-    if (!chain.is_contact(j)) continue;
-    const int coupling = coupling_at(chain, j);
-    Contact c = coupling < 0 ? obstacle_contact(chain, topology, rod, x, j, out.pieces)
-                             : strand_contact(chain, topology, rod, x, j, coupling, out.pieces);
-    c.joint = j;
-    c.s = chain.arclength(x, loads, j);
-    c.z = c.r(2);
-    out.contacts.push_back(c);
-  }
-  // Free pieces take their turn count from a neighbouring contact.
-  for (const Contact& c : out.contacts)
-    for (const int i : {c.joint - 1, c.joint}) {
-      if (i < 0 || c.coupling >= 0 || out.pieces[i].stretch == Stretch::line) continue;
-      Piece& piece = out.pieces[i];
-      const double here = i == c.joint ? piece.angle(0) : piece.angle(piece.angle.size() - 1);
-      piece.angle.array() += 2.0 * M_PI * std::round((c.angle - here) / (2.0 * M_PI));
-    }
-  carry_turns(out.contacts, out.pieces);
+  add_contacts(chain, topology, rod, x, loads, out);
   return out;
-}
-
-double total_contact_force(const Profile& profile, const Topology& topology) {
-  double sum = 0.0;
-  for (const Piece& piece : profile.pieces) sum += piece.force * (topology.half ? 2.0 : 1.0);
-  for (const Contact& c : profile.contacts)
-    sum += (c.coupling < 0 ? c.force : c.reaction.value_or(0.0)) * copies(topology, c.joint);
-  return sum;
 }
 
 double total_contact_force(const Chain& chain, const Topology& topology, const RodKind& rod,
@@ -374,9 +251,8 @@ double total_contact_force(const Chain& chain, const Topology& topology, const R
     }
     if (chain.on_obstacle(i)) {
       const Vector3d normal = chain.joint(i).chart(chain.coordinates(x, i)).normal;
-      const Vector3d before = i > 0 ? n_before : reflected(n_first);
-      sum +=
-          copies(topology, i) * (contact_force(before, n_first, normal) - strand_push(chain, x, i, normal));
+      sum += copies(topology, i) *
+             (force_before(i, n_before, n_first) - n_first - strand_push(chain, x, i)).dot(normal);
     }
     n_before = n_last;
   }

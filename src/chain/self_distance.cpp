@@ -25,7 +25,7 @@ struct Jet {
 /// The centreline element by element.
 class Curve {
  public:
-  explicit Curve(const Profile& whole) : whole_(whole), rod_(whole.material) {
+  explicit Curve(const Profile& whole) : whole_(whole) {
     for (std::size_t i = 0; i < whole.pieces.size(); ++i) {
       const Piece& piece = whole.pieces[i];
       begins.push_back(static_cast<int>(s.size()));
@@ -76,9 +76,7 @@ class Curve {
   }
 
   Jet knot(const Piece& piece, int k) const {
-    const Eigen::Matrix3d d = rod::directors(piece.q.col(k));
-    const Vector3d u = rod_.natural + (d.transpose() * piece.m.col(k)).cwiseQuotient(rod_.stiffness);
-    return {piece.r.col(k), d.col(2), u(1) * d.col(0) - u(0) * d.col(1)};
+    return {piece.r.col(k), tangent(piece.q.col(k)), curvature(whole_.material, piece, k)};
   }
 
   static Jet quintic(const Jet& a, const Jet& b, double h, double place) {
@@ -96,7 +94,6 @@ class Curve {
     int piece, first;
   };
   const Profile& whole_;
-  const rod::Material& rod_;
   std::vector<Where> where_;
 };
 
@@ -263,10 +260,6 @@ class Search {
   std::vector<Eigen::Vector2d> known_;
   std::optional<SelfDistance> best_;
 };
-
-}  // namespace
-
-namespace {
 
 /// Places of the touches between strands, of the whole rod: first place < second place.
 std::vector<Eigen::Vector2d> touches(const Profile& profile, const Topology& topology) {

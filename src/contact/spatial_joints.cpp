@@ -17,6 +17,16 @@ Attachment sized(int configuration, int tangent, int position, int coordinates) 
   return at;
 }
 
+/// A line arc on a joint with the coordinates (u, ψ, χ).
+Attachment lying(const double* w) {
+  Attachment at = sized(2, 2, 2, 4);
+  at.q << w[2], w[3];
+  at.dq.rightCols(2).setIdentity();
+  at.x << w[0], w[1];
+  at.dx.leftCols(2).setIdentity();
+  return at;
+}
+
 rod::Quaternion frame_at(const double* q) { return Eigen::Map<const Eigen::Vector4d>(q); }
 
 }  // namespace
@@ -83,15 +93,7 @@ void Touch::retract(const double* w, const double* dw, double* out) const {
 
 Attachment Edge::attach(Side side, const double* w, const Loads&) const {
   constexpr int psi = 2;  // place of ψ among the coordinates
-  if (side == line_) {
-    Attachment at = sized(2, 2, 2, tangent());
-    at.q << w[2], w[3];
-    at.dq.rightCols(2).setIdentity();
-    at.x << w[0], w[1];
-    at.dx(0, 0) = 1.0;
-    at.dx(1, 1) = 1.0;
-    return at;
-  }
+  if (side == line_) return lying(w);
   Attachment at = sized(4, 3, 3, tangent());
   const obstacle::Chart here = chart(w);
   at.q = surface_frame(surface_->base_frame(on_surface(w)), w[2], w[3]);
@@ -142,14 +144,7 @@ void Edge::retract(const double* w, const double* dw, double* out) const {
   out[3] = w[3] + dw[i + 1];
 }
 
-Attachment SurfaceSection::attach(Side, const double* w, const Loads&) const {
-  Attachment at = sized(2, 2, 2, tangent());
-  at.q << w[2], w[3];
-  at.dq.rightCols(2).setIdentity();
-  at.x << w[0], w[1];
-  at.dx.leftCols(2).setIdentity();
-  return at;
-}
+Attachment SurfaceSection::attach(Side, const double* w, const Loads&) const { return lying(w); }
 
 Attachment FreeSection::attach(Side, const double* w, const Loads&) const {
   Attachment at = sized(4, 3, 3, tangent());
@@ -169,7 +164,7 @@ void FreeSection::retract(const double* w, const double* dw, double* out) const 
 SmallVector FreeSection::turned(const double* w, double turn, double spin) const {
   SmallVector out(tangent());
   out.head(3) = turn * Vector3d::UnitX().cross(Eigen::Map<const Vector3d>(w));
-  out.tail(3) = rod::turn_increment(Eigen::Map<const Eigen::Vector4d>(w + 3), turn, spin);
+  out.tail(3) = rod::turn_increment(Eigen::Map<const Eigen::Vector4d>(w + 3), turn * Vector3d::UnitX(), spin);
   return out;
 }
 
@@ -184,14 +179,7 @@ Centreline Strand::centreline(const double* w) const {
   return line;
 }
 
-Attachment Pressed::attach(Side, const double* w, const Loads&) const {
-  Attachment at = sized(2, 2, 2, tangent());
-  at.q << w[2], w[3];
-  at.dq.rightCols(2).setIdentity();
-  at.x << w[0], w[1];
-  at.dx.leftCols(2).setIdentity();
-  return at;
-}
+Attachment Pressed::attach(Side, const double* w, const Loads&) const { return lying(w); }
 
 Centreline Pressed::centreline(const double* w) const {
   const obstacle::Chart here = chart(w);
@@ -302,7 +290,8 @@ void FreeRodEnd::retract(const double* w, const double* dw, double* out) const {
 SmallVector FreeRodEnd::turned(const double* w, double turn, double spin) const {
   SmallVector out = SmallVector::Zero(tangent());
   if (pinned_)
-    out.tail(3) = rod::turn_increment(Eigen::Map<const Eigen::Vector4d>(w + under_thrust_), turn, spin);
+    out.tail(3) = rod::turn_increment(Eigen::Map<const Eigen::Vector4d>(w + under_thrust_),
+                                      turn * Vector3d::UnitX(), spin);
   return out;
 }
 

@@ -122,12 +122,6 @@ bool beside_unpressed(const Profile& profile, int link) {
          (link < last && profile.pieces[link + 1].buckling);
 }
 
-bool beside_strand(const Profile& profile, int link) {
-  return std::any_of(profile.contacts.begin(), profile.contacts.end(), [&](const Contact& c) {
-    return c.coupling >= 0 && (c.joint == link || c.joint == link + 1);
-  });
-}
-
 /// Two touches with a short gap between them that have come from one: they meet where its length says so, before their
 /// curvature, which falls with the square of it, can.
 bool about_to_meet(const Profile& profile, const Contact& touch) {
@@ -143,7 +137,8 @@ bool about_to_meet(const Profile& profile, const Contact& touch) {
   });
 }
 
-ContactEvent length_event(const Profile& profile, int i, bool begins_at_mid) {
+ContactEvent length_event(const Profile& profile, const Topology& topology, int i) {
+  const bool begins_at_mid = topology.half && i == 0 && !topology.mid_touch;
   const Piece& piece = profile.pieces[i];
   const bool gap = piece.stretch == Stretch::gap;
   const auto carried =
@@ -153,7 +148,7 @@ ContactEvent length_event(const Profile& profile, int i, bool begins_at_mid) {
       gap && std::count_if(profile.contacts.begin(), profile.contacts.end(), is_touch) == 2;
   const double stiffest = profile.material.stiffness.maxCoeff() / profile.material.bending_stiffness;
   const double shortest = piece.stretch == Stretch::tail ? shortest_tail * stiffest
-                          : beside_strand(profile, i)    ? least_beside_strand
+                          : topology.beside_strand(i)    ? least_beside_strand
                           : between_touches              ? least_between_touches
                                                          : least_length;
   const double least = shortest * profile.unit_length;
@@ -196,24 +191,20 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
   const int count = static_cast<int>(profile.pieces.size());
   for (int i = 0; i < count; ++i) {
     const Piece& piece = profile.pieces[i];
-    const bool at_mid = topology.half && i == 0;
+    const bool at_mid = topology.half && i == 0 && !topology.mid_touch;
     if (piece.stretch == Stretch::line) {
-      const auto found = pressure_and_suction(piece, i, at_mid && !topology.mid_touch);
+      const auto found = pressure_and_suction(piece, i, at_mid);
       events.insert(events.end(), found.begin(), found.end());
     }
-    events.push_back(length_event(profile, i, at_mid && !topology.mid_touch));
+    events.push_back(length_event(profile, topology, i));
     if (piece.stretch == Stretch::line)
       events.push_back({Kind::buckling, i, piece.buckling.value_or(far), piece.s(0)});
     else
-      for (int o = 0; o < profile.obstacles.size(); ++o)
-        events.push_back(graze(profile, o, i, at_mid && !topology.mid_touch));
+      for (int o = 0; o < profile.obstacles.size(); ++o) events.push_back(graze(profile, o, i, at_mid));
   }
-  std::vector<int> seen;  // couplings: one event for the two joints
+  const std::vector<chain::Coupling> couplings = topology.couplings();
   for (const Contact& c : profile.contacts) {
-    if (c.coupling >= 0) {
-      if (std::find(seen.begin(), seen.end(), c.coupling) != seen.end()) continue;
-      seen.push_back(c.coupling);
-    }
+    if (c.coupling >= 0 && c.joint != couplings[c.coupling].first) continue;  // one event for the two joints
     events.push_back({Kind::force, c.joint, c.force, c.s});
     if (c.reaction) events.push_back(reaction_event(profile, c));
     if (c.edge) continue;

@@ -148,16 +148,18 @@ bool settle_shape(RodProblem& problem, Vector& x, Vector& p, const std::vector<i
   return report.converged || report.iterations == most;
 }
 
-std::optional<LineBegins> where_line_begins(RodProblem& problem, Vector x, Vector p, int link) {
+std::optional<Vanishing> where_length_vanishes(RodProblem& problem, Vector x, Vector p, int link,
+                                               double shortest) {
   constexpr int levels = 4;
-  const double shortest = 4.0 * least_length * problem.rod().unit_length;
-  std::array<double, levels> values;  // p(0) is smooth in the length
+  std::array<double, levels> values;  // p(0) and the state are smooth in the length
+  std::array<Vector, levels> states;
   for (int k = levels; k-- > 0;) {
     if (!solve_at_length(problem, x, p, link, shortest * (1 << k))) return std::nullopt;
     values[k] = p(0);
+    states[k] = x;
   }
   const Limit<double> limit = limit_at_zero(values);
-  return LineBegins{limit.value, std::abs(limit.value - limit.before)};
+  return Vanishing{limit.value, std::abs(limit.value - limit.before), limit_at_zero(states).value};
 }
 
 bool solve_in_place(RodProblem& problem, Vector& x, const Vector& p) {

@@ -92,70 +92,77 @@ JointRecord contact_record(const chain::Contact& c, double sign) {
   joint.obstacle = c.obstacle;
   const Vector3d image(sign, 1.0, sign);  // under the half-turn, for sign = −1
   joint.r = image.cwiseProduct(c.r);
-  if (c.coupling >= 0) joint.strand_normal = image.cwiseProduct(c.normal);
   joint.normal = image.cwiseProduct(c.surface_normal);
   return joint;
 }
 
+/// A contact on its way into a solution.
+struct Placed {
+  JointRecord record;
+  int joint = 0, side = 1;           ///< of the chain; −1: its image
+  Vector3d push = Vector3d::Zero();  ///< of another strand
+};
+
+Placed placed_contact(const chain::Contact& c, int side) {
+  const Vector3d image(side, 1.0, side);  // under the half-turn, for side = −1
+  Placed out{contact_record(c, side), c.joint, side};
+  if (c.coupling >= 0) out.push = c.force * image.cwiseProduct(c.normal);
+  return out;
+}
+
 /// Names each strand's joint to the one that it touches.
-/// @param where  joint of the chain, and 1 or −1 for its image, of each contact in `contacts`
-void name_partners(const std::vector<chain::Coupling>& couplings,
-                   const std::vector<std::pair<int, int>>& where, std::vector<JointRecord>& contacts) {
-  for (std::size_t k = 0; k < where.size(); ++k)
+void name_partners(const std::vector<chain::Coupling>& couplings, std::vector<Placed>& contacts) {
+  for (Placed& contact : contacts)
     for (const chain::Coupling& c : couplings) {
-      const auto [joint, side] = where[k];
-      if (joint != c.first && joint != c.second) continue;
-      const std::pair<int, int> other{joint == c.first ? c.second : c.first, c.mirrored ? -side : side};
-      const auto found = std::find(where.begin(), where.end(), other);
-      if (found != where.end()) contacts[k].partner = 1 + static_cast<int>(found - where.begin());
+      if (contact.joint != c.first && contact.joint != c.second) continue;
+      const int joint = contact.joint == c.first ? c.second : c.first;
+      const int side = c.mirrored ? -contact.side : contact.side;
+      const auto found = std::find_if(contacts.begin(), contacts.end(), [&](const Placed& other) {
+        return other.joint == joint && other.side == side;
+      });
+      if (found != contacts.end()) contact.record.partner = 1 + static_cast<int>(found - contacts.begin());
     }
 }
 
 /// Where two touches are just passing each other the arc between them has no length, and its state is that of its neighbours:
 /// what of the strands' forces the obstacle takes is shared by the two.
-void fill_between_touches(std::vector<ArcRecord>& arcs, std::size_t k, JointRecord& before,
-                          JointRecord& after) {
+void fill_between_touches(std::vector<ArcRecord>& arcs, std::size_t k, Placed& before, Placed& after) {
   const ArcRecord &left = arcs[k - 1], &right = arcs[k + 1];
   ArcRecord& arc = arcs[k];
-  const Vector3d strand = before.strand_force * before.strand_normal,
-                 jump = left.n.rightCols<1>() - right.n.col(0);
-  const Vector3d rest = jump - strand - after.strand_force * after.strand_normal;
-  if (before.obstacle >= 0) before.force = after.force = 0.5 * rest.dot(before.normal);
+  const Vector3d rest = left.n.rightCols<1>() - right.n.col(0) - before.push - after.push;
+  JointRecord& here = before.record;
+  if (here.obstacle >= 0) here.force = after.record.force = 0.5 * rest.dot(here.normal);
   arc.r.colwise() = Vector3d(left.r.rightCols<1>());
   arc.q.colwise() = Vector4d(left.q.rightCols<1>());
   arc.m.colwise() = Vector3d(left.m.rightCols<1>());
-  arc.n.colwise() = Vector3d(left.n.rightCols<1>() - strand - before.force * before.normal);
+  arc.n.colwise() = Vector3d(left.n.rightCols<1>() - before.push - here.force * here.normal);
   arc.p.setConstant(left.p(left.p.size() - 1));
   arc.force = 0.0;
 }
 
 /// Where a touch of strands is just passing the edge of a line, the arc between the two has no length and no state of its own:
 /// they are one joint.
-void merge_vanishing(std::vector<ArcRecord>& arcs, std::vector<JointRecord>& contacts,
-                     std::vector<std::pair<int, int>>& where) {
+void merge_vanishing(std::vector<ArcRecord>& arcs, std::vector<Placed>& contacts) {
   constexpr double none = 1e-12;
   for (std::size_t k = 1; k < contacts.size();) {
-    JointRecord &before = contacts[k - 1], &after = contacts[k];
+    Placed &before = contacts[k - 1], &after = contacts[k];
+    const int strands = (before.record.strand_force != 0.0) + (after.record.strand_force != 0.0);
     const bool vanishes = std::abs(arcs[k].s_end - arcs[k].s_begin) < none;
-    if (vanishes && before.strand_force != 0.0 && after.strand_force != 0.0)
-      fill_between_touches(arcs, k, before, after);
-    const bool strand = (before.strand_force != 0.0) != (after.strand_force != 0.0);
-    if (!strand || !vanishes) {
+    if (vanishes && strands == 2) fill_between_touches(arcs, k, before, after);
+    if (!vanishes || strands != 1) {
       ++k;
       continue;
     }
-    JointRecord& edge = before.kind == JointKind::edge ? before : after;
-    const JointRecord& other = &edge == &before ? after : before;
+    const bool edge_first = before.record.kind == JointKind::edge;
+    Placed touch = edge_first ? after : before;  // its partner knows it by this joint
+    const double strand_force = touch.record.strand_force;
+    touch.record = edge_first ? before.record : after.record;
     const Vector3d jump = arcs[k - 1].n.rightCols<1>() - arcs[k + 1].n.col(0);
-    edge.force = (jump - other.strand_force * other.strand_normal).dot(edge.normal);
-    edge.strand_force = other.strand_force;
-    edge.strand_normal = other.strand_normal;
-    const auto place = static_cast<std::ptrdiff_t>(k);
-    where[k - 1] = where[&other == &after ? k : k - 1];
-    where.erase(where.begin() + place);
-    contacts[k - 1] = JointRecord(edge);
-    contacts.erase(contacts.begin() + place);
-    arcs.erase(arcs.begin() + place);
+    touch.record.force = (jump - touch.push).dot(touch.record.normal);
+    touch.record.strand_force = strand_force;
+    contacts[k - 1] = touch;
+    contacts.erase(contacts.begin() + static_cast<std::ptrdiff_t>(k));
+    arcs.erase(arcs.begin() + static_cast<std::ptrdiff_t>(k));
   }
 }
 
@@ -164,26 +171,23 @@ void assemble(const chain::Profile& shape, const chain::Profile& whole, const To
               bool infinite, Solution& out) {
   std::vector<ArcRecord> arcs;
   for (const Piece& piece : whole.pieces) arcs.push_back(arc_record(piece));
-  std::vector<JointRecord> contacts;
-  std::vector<std::pair<int, int>> where;
-  const auto add = [&](const chain::Contact& c, int side) {
-    contacts.push_back(contact_record(c, side));
-    where.emplace_back(c.joint, side);
-  };
+  std::vector<Placed> contacts;
   if (topology.half)
     for (std::size_t j = shape.contacts.size(); j-- > 0;)
-      if (!(topology.mid_touch && j == 0)) add(shape.contacts[j], -1);
-  for (const chain::Contact& c : shape.contacts) add(c, 1);
+      if (!(topology.mid_touch && j == 0)) contacts.push_back(placed_contact(shape.contacts[j], -1));
+  for (const chain::Contact& c : shape.contacts) contacts.push_back(placed_contact(c, 1));
   if (topology.half && !topology.mid_touch) {  // the mid-point is no joint: its stretch spans both halves
     const std::size_t middle = topology.stretches.size();
     append(arcs[middle - 1], arcs[middle]);
     arcs.erase(arcs.begin() + static_cast<std::ptrdiff_t>(middle));
   }
-  merge_vanishing(arcs, contacts, where);
-  name_partners(topology.couplings(), where, contacts);
-  for (const JointRecord& contact : contacts) out.self_force += 0.5 * contact.strand_force;
+  merge_vanishing(arcs, contacts);
+  name_partners(topology.couplings(), contacts);
   out.joints.push_back(end_record(arcs.front(), false, infinite));
-  out.joints.insert(out.joints.end(), contacts.begin(), contacts.end());
+  for (const Placed& contact : contacts) {
+    out.joints.push_back(contact.record);
+    out.self_force += 0.5 * contact.record.strand_force;
+  }
   out.joints.push_back(end_record(arcs.back(), true, infinite));
   out.arcs = std::move(arcs);
 }

@@ -114,11 +114,12 @@ bool extrapolate(Entry& touch, double p) {
 
 /// The event where a line on a plane begins, and the touch in its place.
 std::optional<continuation::Transition::Located> located_onset(Entry line, int link, Entry touch) {
-  std::optional<LineBegins> begins;
+  std::optional<Vanishing> begins;
   constexpr double settled = 1e-8;
   touch.problem = std::static_pointer_cast<RodProblem>(touch.problem->clone());
   if (!tried([&] {
-        begins = where_line_begins(*line.problem, line.x, line.p, link);
+        begins = where_length_vanishes(*line.problem, line.x, line.p, link,
+                                       4.0 * least_length * line.problem->rod().unit_length);
         return begins && extrapolate(touch, begins->p) &&
                touch.problem->residual_norm(touch.problem->residual(touch.x, touch.p)) < settled;
       }))
@@ -130,34 +131,21 @@ double length_of(Entry& entry, int link) {
   return entry.problem->chain().length(entry.x, entry.problem->loads(entry.p), link);
 }
 
-bool beside_strand(const RodProblem& problem, int link) {
-  const std::vector<chain::Coupling> strands = problem.topology().couplings();
-  return std::any_of(strands.begin(), strands.end(), [&](const chain::Coupling& c) {
-    return c.first == link || c.first == link + 1 || c.second == link || c.second == link + 1;
-  });
-}
-
 double entered_beside_strand(const RodProblem& problem) {
   return 2.0 * least_beside_strand * problem.rod().unit_length;
 }
 
-/// The event at which an arc beside a touch of strands has no length: p(0) and the state are smooth in its length.
+/// The event at which an arc beside a touch of strands has no length.
 std::optional<continuation::Transition::Located> located_vanishing(Entry here, int link) {
-  constexpr int levels = 4;
-  const double shortest = 2.0 * least_beside_strand * here.problem->rod().unit_length;
   here.problem = std::static_pointer_cast<RodProblem>(here.problem->clone());
-  std::array<double, levels> values;
-  std::array<Vector, levels> states;
-  for (int k = 0; k < levels; ++k) {
-    if (!tried([&] { return solve_at_length(*here.problem, here.x, here.p, link, shortest * (1 << k)); }))
-      return std::nullopt;
-    values[k] = here.p(0);
-    states[k] = here.x;
-  }
-  const Limit<double> limit = limit_at_zero(values);
-  here.p(0) = limit.value;
-  return continuation::Transition::Located{here.problem, limit_at_zero(states).value, here.p,
-                                           std::abs(limit.value - limit.before)};
+  std::optional<Vanishing> at;
+  if (!tried([&] {
+        at = where_length_vanishes(*here.problem, here.x, here.p, link, entered_beside_strand(*here.problem));
+        return at.has_value();
+      }))
+    return std::nullopt;
+  here.p(0) = at->p;
+  return continuation::Transition::Located{here.problem, at->x, here.p, at->precision};
 }
 
 /// The links that open, and the gaps that are short still: their edges answer steeply to all that is wrong in a guess.
@@ -182,7 +170,7 @@ double to_the_end(RodProblem& problem, const Vector& x, const Vector& p, int lin
 /// Brings an opened arc to the length that it is entered with, as far as the contacts hold: longer ones lie further from
 /// the event, in shorter ones rounding moves the edges, by its size over the edges' force, length³.
 void adjust_length(Entry& entry, int link) {
-  const bool strand = beside_strand(*entry.problem, link);
+  const bool strand = entry.problem->topology().beside_strand(link);
   const double factor = strand ? 4.0 : 1.5;
   const double entered =
       strand ? entered_beside_strand(*entry.problem) : 0.06 * entry.problem->rod().unit_length;
@@ -231,7 +219,7 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, i
   const bool in_place = as_long && tried([&] { return solve_in_place(*here.problem, here.x, here.p); });
   if (in_place) entry = here;
   double length = length_of(entry, opened.front());
-  if (beside_strand(*entry.problem, opened.front()))
+  if (entry.problem->topology().beside_strand(opened.front()))
     length = std::max(length, entered_beside_strand(*entry.problem));
   const auto solve = [&] {
     return in_place ? solve_in_place(*entry.problem, entry.x, entry.p)
@@ -346,7 +334,7 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
     std::optional<Entry> found = enter(entry, event, next, shrinks, transition.precision);
     if (!found || !tried([&] { return found->problem->settle(found->x, found->p), true; })) continue;
     const auto here = std::static_pointer_cast<RodProblem>(clone());
-    if (event.kind == Kind::length && transition.precision < 0.0 && beside_strand(*this, event.place))
+    if (event.kind == Kind::length && transition.precision < 0.0 && topology_.beside_strand(event.place))
       transition.located = located_vanishing({here, x, p}, event.place);
     else if (shrinks)
       transition.located = located_onset({here, x, p}, event.place, *found);

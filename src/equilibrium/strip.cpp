@@ -53,6 +53,22 @@ void Strip::split(int i, double at, Stretch left, Stretch right, std::optional<c
   on.insert(on.begin() + i + 1, contact.value_or(chain::Seat{on[i].obstacle}));
 }
 
+int Strip::part_at(double at) const {
+  int i = 0;
+  while (i + 1 < static_cast<int>(parts.size()) && at > s[i + 1]) ++i;
+  return i;
+}
+
+void Strip::cut(int i, double at, chain::Seat contact) {
+  if (parts[i].kind == Stretch::line) {
+    contact.obstacle = on[i].obstacle;
+    return split(i, at, Stretch::line, Stretch::line, contact);
+  }
+  const bool left_tail = !half && i == 0, alone = parts.size() == 1;
+  const bool right_tail = parts[i].kind == Stretch::tail && (!left_tail || alone);
+  split(i, at, left_tail ? Stretch::tail : Stretch::gap, right_tail ? Stretch::tail : Stretch::gap, contact);
+}
+
 bool Strip::collapse(int i) {
   if (starts_at_mid(i)) {
     if (!mid_touch) return collapse_about_mid();
@@ -81,6 +97,11 @@ bool Strip::collapse_about_mid() {
   // Between lines a gap has closed; else a line, or a gap between touches, leaves one touch.
   mid_touch = parts[0].kind != Stretch::line;
   return true;
+}
+
+Stretch joined(Stretch a, Stretch b) {
+  if (a == Stretch::line) return b;
+  return a == Stretch::tail || b == Stretch::tail ? Stretch::tail : Stretch::gap;
 }
 
 }  // namespace windlass::equilibrium

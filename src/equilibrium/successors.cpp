@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "strand_successors.hpp"
 #include "strip.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
 
@@ -14,12 +15,6 @@ using chain::Topology;
 using Kind = ContactEvent::Kind;
 
 namespace {
-
-/// Free arcs left and right of what was lost become one: a tail if either is.
-Stretch joined(Stretch a, Stretch b) {
-  if (a == Stretch::line) return b;  // a strand that pressed on a line
-  return a == Stretch::tail || b == Stretch::tail ? Stretch::tail : Stretch::gap;
-}
 
 /// Lengths to try for a gap that opens where the pressure is negative over `width`. A beam held off by the pressure
 /// p₀ + a x² needs √5 times that width for g = g' = g'' = 0 at its ends, one held at a touch 5/3 of it; at the event
@@ -74,72 +69,12 @@ std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& st
 /// A line that has this length or less at an event shrinks to nothing there.
 bool vanishes(const Strip& strip, int link) {
   constexpr double vanished = 3.0 * least_length;
-  return link >= 0 && link < static_cast<int>(strip.parts.size()) &&
-         strip.parts[link].kind == Stretch::line && std::abs(strip.s[link + 1] - strip.s[link]) < vanished;
-}
-
-bool is_line(const Strip& strip, int part) {
-  return part >= 0 && part < static_cast<int>(strip.parts.size()) && strip.parts[part].kind == Stretch::line;
-}
-
-/// A touch between strands passes the edge of a line contact: the gap between the two is a stretch of the line now, or the
-/// other way round.
-std::optional<Successor> strand_passes_edge(int link, Strip strip) {
-  const auto strand = [&](int joint) { return strip.on[joint].strand != 0; };
-  const bool before = link > 0 && strand(link), after = strand(link + 1);
-  const bool line = is_line(strip, link);
-  // The other joint is an edge: of the line itself, or of the one beyond the gap.
-  const bool from_left = after && !before && link > 0 && is_line(strip, link - 1) != line;
-  const bool from_right = before && !after && is_line(strip, link + 1) != line;
-  if (!from_left && !from_right) return std::nullopt;
-  strip.parts[link].kind = line ? Stretch::gap : Stretch::line;
-  strip.parts[link].fresh = true;
-  const int edge = from_left ? link : link + 1, other = from_left ? link + 1 : link;
-  std::swap(strip.on[edge].strand, strip.on[other].strand);
-  strip.on[other].obstacle = strip.on[edge].obstacle;
-  return strip.successor();
-}
-
-/// The other joint of a touch between strands; j itself where it touches its own image.
-int partner(const Strip& strip, int j) {
-  const int strand = std::abs(strip.on[j].strand);
-  for (int k = 0; k < static_cast<int>(strip.on.size()); ++k)
-    if (k != j && std::abs(strip.on[k].strand) == strand) return k;
-  return j;
-}
-
-/// Two touches with different strands pass each other along the rod; on a half chain one may pass its own image at s = 0,
-/// and is then pressed on by the image of what pressed on it.
-std::optional<Successor> touches_pass(int link, Strip strip) {
-  const auto strand = [&](int joint) { return std::abs(strip.on[joint].strand); };
-  if (strip.starts_at_mid(link)) {
-    if (strip.mid_touch || strand(1) == 0 || partner(strip, 1) == 1) return std::nullopt;
-    strip.on[1].strand = -strip.on[1].strand;
-  } else {
-    if (strand(link) == 0 || strand(link + 1) == 0 || strand(link) == strand(link + 1)) return std::nullopt;
-    std::swap(strip.on[link].strand, strip.on[link + 1].strand);
-  }
-  strip.parts[link].fresh = true;
-  return strip.successor();
-}
-
-/// Two touches of the same two strands meet, at both places, and are one.
-std::optional<Successor> touches_meet(int link, Strip strip) {
-  if (strip.starts_at_mid(link) || strip.on[link].strand == 0 || strip.on[link + 1].strand == 0)
-    return std::nullopt;
-  const int first = partner(strip, link), second = partner(strip, link + 1);
-  if (std::abs(first - second) != 1 || first == link + 1) return std::nullopt;
-  const int other = std::min(first, second), strand = strip.on[link].strand;
-  for (const int joint : {other, link}) strip.on[joint].strand = strand;
-  for (const int gap : {std::max(link, other), std::min(link, other)}) strip.collapse(gap);
-  return strip.successor();
+  return strip.is_line(link) && std::abs(strip.s[link + 1] - strip.s[link]) < vanished;
 }
 
 std::vector<Successor> after_length(int link, const Strip& strip) {
   std::vector<Successor> out;
-  if (const auto met = touches_meet(link, strip)) return {*met};
-  if (const auto passed = touches_pass(link, strip)) return {*passed};
-  if (const auto passed = strand_passes_edge(link, strip)) return {*passed};
+  if (const auto next = after_length_beside_strand(link, strip)) return {*next};
   // In long helices lines shrink to nothing together, at distances that differ by less than rounding.
   Strip together = strip;
   int count = 0;
@@ -205,17 +140,14 @@ std::vector<Successor> after_curvature(const ContactEvent& event, const Strip& s
       widest =
           std::max(widest, std::abs(profile.obstacles[strip.on[j].obstacle].gap(profile.pieces[i].r.col(k))));
     if (widest > 1e-5 && !slightly_bowed(profile, i, widest)) continue;
-    const auto is_line = [&](int part) {
-      return part >= 0 && part < static_cast<int>(strip.parts.size()) &&
-             strip.parts[part].kind == Stretch::line;
-    };
     // Two touches that meet become one. Their curvature vanishes with the gap, whichever is seen first.
     constexpr double shortest = 0.05;
     Strip met = strip;
-    if (!is_line(i - 1) && !is_line(i + 1) && strip.s[i + 1] - strip.s[i] < shortest && met.collapse(i))
+    if (!strip.is_line(i - 1) && !strip.is_line(i + 1) && strip.s[i + 1] - strip.s[i] < shortest &&
+        met.collapse(i))
       out.push_back(met.successor());
     Strip closed = strip;
-    closed.merge(is_line(i - 1) ? i - 1 : i, is_line(i + 1) ? i + 1 : i, Stretch::line);
+    closed.merge(strip.is_line(i - 1) ? i - 1 : i, strip.is_line(i + 1) ? i + 1 : i, Stretch::line);
     out.push_back(closed.successor());
   }
   // The touch flattens to a line, or where a line would pull (under low tension) comes apart into two.
@@ -232,108 +164,8 @@ std::vector<Successor> after_graze(const ContactEvent& event, Strip strip) {
     strip.on[0] = {event.obstacle};
     return {strip.successor()};
   }
-  const Stretch kind = strip.parts[i].kind;
-  const bool left_tail = !strip.half && i == 0, alone = strip.parts.size() == 1;
-  const bool right_tail = kind == Stretch::tail && (!left_tail || alone);
-  strip.split(i, event.s, left_tail ? Stretch::tail : Stretch::gap, right_tail ? Stretch::tail : Stretch::gap,
-              chain::Seat{event.obstacle});
+  strip.cut(i, event.s, {event.obstacle});
   return {strip.successor()};
-}
-
-int new_strand(const Strip& strip) {
-  int most = 0;
-  for (const chain::Seat& seat : strip.on) most = std::max(most, std::abs(seat.strand));
-  return most + 1;
-}
-
-/// Two strands that part: at each place the free arcs beside it become one.
-std::vector<Successor> strands_part(int j, Strip strip) {
-  const int other = partner(strip, j);
-  for (const int joint : {std::max(j, other), std::min(j, other)}) {
-    strip.merge(joint - 1, joint, joined(strip.parts[joint - 1].kind, strip.parts[joint].kind));
-    if (j == other) break;
-  }
-  return {strip.successor()};
-}
-
-/// Cuts an arc at a touch with another strand. @returns the joint
-int cut(Strip& strip, double s, chain::Seat seat) {
-  int i = 0;
-  while (i + 1 < static_cast<int>(strip.parts.size()) && s > strip.s[i + 1]) ++i;
-  if (strip.parts[i].kind == Stretch::line) {
-    seat.obstacle = strip.on[i].obstacle;
-    strip.split(i, s, Stretch::line, Stretch::line, seat);
-    return i + 1;
-  }
-  const bool left_tail = !strip.half && i == 0, alone = strip.parts.size() == 1;
-  const bool right_tail = strip.parts[i].kind == Stretch::tail && (!left_tail || alone);
-  strip.split(i, s, left_tail ? Stretch::tail : Stretch::gap, right_tail ? Stretch::tail : Stretch::gap,
-              seat);
-  return i + 1;
-}
-
-/// A strand that lies on an obstacle where another presses on it lifts off there: the line ends before and begins anew
-/// behind, and between the other carries it alone.
-std::vector<Successor> strand_lifts(int j, Strip strip) {
-  const double s = strip.s[j],
-               length = std::min({0.05, 0.2 * (s - strip.s[j - 1]), 0.2 * (strip.s[j + 1] - s)});
-  const chain::Seat seat = strip.on[j];
-  strip.split(j, s + length, Stretch::gap, Stretch::line);
-  strip.split(j - 1, s - length, Stretch::line, Stretch::gap);
-  strip.on[j] = strip.on[j + 2] = {seat.obstacle, 0};
-  strip.on[j + 1] = seat;
-  strip.parts[j].fresh = strip.parts[j + 1].fresh = true;
-  return {strip.successor()};
-}
-
-/// Two strands that meet, or one that meets its own image.
-std::vector<Successor> strands_meet(const ContactEvent& event, Strip strip) {
-  constexpr double same = 1e-6;
-  const int strand = new_strand(strip);
-  const bool own_image =
-      event.mirrored && event.place == event.other && std::abs(event.s - event.s_other) < same;
-  cut(strip, event.s, {0, strand});
-  if (!own_image) cut(strip, event.s_other, {0, event.mirrored ? -strand : strand});
-  return {strip.successor()};
-}
-
-/// A touch of two strands where they come apart into two touches, along the direction in which their distance no longer
-/// grows: of s₁ and s₂ one up and the other down, or both up.
-std::vector<Successor> strands_split(const ContactEvent& event, const Strip& strip, const Profile& profile) {
-  const int j = event.place, other = partner(strip, j);
-  std::vector<Successor> out;
-  for (const double part : {0.05, 0.02, 0.1}) {
-    const double length = part * profile.unit_length;
-    Strip split = strip;
-    const auto widen = [&](int joint, int before, int after) {
-      const bool on_line = is_line(split, joint - 1) && is_line(split, joint);
-      split.split(joint, strip.s[joint] + 0.5 * length, on_line ? Stretch::line : Stretch::gap,
-                  split.parts[joint].kind);
-      split.on[joint + 1] = split.on[joint];
-      split.s[joint] -= 0.5 * length;
-      split.on[joint].strand = before;
-      split.on[joint + 1].strand = after;
-      split.parts[joint].fresh = true;
-    };
-    const int old = strip.on[j].strand, fresh = new_strand(strip);
-    if (j == other) {
-      widen(j, old, -old);
-      out.push_back(split.successor());
-      continue;
-    }
-    for (const bool opposite : {true, false}) {
-      split = strip;
-      const int low = std::min(j, other), high = std::max(j, other);
-      const int sign = strip.on[low].strand == strip.on[high].strand ? 1 : -1;
-      const int first = std::abs(strip.on[low].strand);
-      // Images run the other way.
-      const bool crossed = opposite == (sign > 0);
-      widen(high, sign * (crossed ? fresh : first), sign * (crossed ? first : fresh));
-      widen(low, first, fresh);
-      out.push_back(split.successor());
-    }
-  }
-  return out;
 }
 
 /// What touches at the rod's end need not be tangent there: another mechanics.
@@ -382,25 +214,6 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
       return strands_meet(event, strip);
   }
   return {};
-}
-
-/// The strand that the image of a joint touches, on a chain where the image of every joint is one, too: a joint that touches
-/// the image of y has its own image touch y.
-/// @param joint  of `next`, on the side that changed
-int image_strand(const Successor& next, int joint) {
-  const auto strand = [&](int j) { return next.topology.seat(j).strand; };
-  const int count = static_cast<int>(next.s.size());
-  int other = -1, image = -1;
-  for (int j = 0; j < count; ++j)
-    if (j != joint && strand(j) == strand(joint)) other = j;
-  if (other < 0 || strand(joint) == 0) return strand(joint);
-  if (next.s[other] * next.s[joint] > 0.0)
-    return strand(joint) + count;  // both on this side: a touch of its own
-  for (int j = 0; j < count; ++j)
-    if (strand(j) != 0 && next.s[j] * next.s[joint] > 0.0 &&
-        (image < 0 || std::abs(next.s[j] + next.s[other]) < std::abs(next.s[image] + next.s[other])))
-      image = j;
-  return strand(image);
 }
 
 /// The same with the change made on both sides of s = 0: the side that changed and its mirror image.

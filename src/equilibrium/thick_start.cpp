@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "attempt.hpp"
+#include "strip.hpp"
 #include "windlass/scene/error.hpp"
 
 namespace windlass::equilibrium {
 
-using chain::Seat;
 using chain::Stretch;
 
 namespace {
@@ -64,26 +64,20 @@ std::vector<Crossing> touches_of(const chain::Profile& shape, double radius) {
 /// lie on each other they lie side by side.
 std::optional<Started> pressed_apart(const Started& flat, double radius) {
   const chain::Profile shape = flat.problem->profile(flat.x, flat.p);
-  chain::Topology topology = flat.problem->topology();
-  std::vector<chain::ArcMesh> meshes = flat.problem->meshes();
-  std::vector<double> s = flat.problem->joint_places(flat.x, flat.p, shape);
   const contact::Loads loads = flat.problem->loads(flat.p);
-  topology.on.resize(topology.stretches.size() + 1);
+  Strip strip(flat.problem->topology(), flat.problem->joint_places(flat.x, flat.p, shape));
   const std::vector<Crossing> touches = touches_of(shape, radius);
   if (touches.empty()) return std::nullopt;
-  for (const Crossing& touch : touches) {
-    std::size_t i = 0;
-    while (i + 1 < topology.stretches.size() && touch.s > s[i + 1]) ++i;
-    const auto place = [](auto& list, std::size_t k) {
-      return list.begin() + static_cast<std::ptrdiff_t>(k);
-    };
-    const Stretch kind = topology.stretches[i];
-    if (kind != Stretch::line) topology.stretches[i] = Stretch::gap;
-    topology.stretches.insert(place(topology.stretches, i + 1), kind);
-    topology.on.insert(place(topology.on, i + 1), Seat{0, touch.strand});
-    meshes[i] = first_mesh(topology.stretches[i], loads, touch.s - s[i]);
-    meshes.insert(place(meshes, i + 1), first_mesh(kind, loads, s[i + 1] - touch.s));
-    s.insert(place(s, i + 1), touch.s);
+  for (const Crossing& touch : touches) strip.cut(strip.part_at(touch.s), touch.s, {0, touch.strand});
+  const Successor next = strip.successor();
+  const chain::Topology& topology = next.topology;
+  const std::vector<double>& s = next.s;
+  const std::vector<int>& source = next.source;
+  std::vector<chain::ArcMesh> meshes;
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    const bool whole = std::count(source.begin(), source.end(), source[i]) == 1;
+    meshes.push_back(whole ? flat.problem->meshes()[source[i]]
+                           : first_mesh(topology.stretches[i], loads, s[i + 1] - s[i]));
   }
   scene::Scene scene = flat.problem->scene_at(flat.p);
   scene.self_contact = true;

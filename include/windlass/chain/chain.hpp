@@ -82,14 +82,21 @@ class Chain {
   /// Does it touch an obstacle, and not another strand of the rod?
   bool on_obstacle(int joint) const { return is_contact(joint) && joints_[joint]->surface() != nullptr; }
   const std::vector<Coupling>& couplings() const { return couplings_; }
+  /// Of a joint, its place among the couplings; −1: none.
+  int coupling_of(int joint) const { return coupling_of_[joint]; }
   /// Force λ of a coupling.
   double strand_force(const VectorXd& x, int coupling) const { return x(strand_at_[coupling]); }
   double& strand_force(VectorXd& x, int coupling) const { return x(strand_at_[coupling]); }
   /// The two strands at a coupling, the second as it is seen from the first.
   struct Crossing {
+    Coupling coupling;
     contact::Centreline first, second;
     Eigen::Vector3d direction;  ///< e
     double distance = 0.0;      ///< |D|
+    /// Direction of the force on a joint, one of the two.
+    Eigen::Vector3d push_on(int joint) const {
+      return joint == coupling.first ? direction : Eigen::Vector3d(-coupling.image().cwiseProduct(direction));
+    }
   };
   Crossing crossing(const VectorXd& x, int coupling) const;
   /// Is the arclength of this joint unknown?

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+
 namespace windlass::chain {
 
 /// Contact of the rod with itself: two joints, or a joint and the half-turn's image of one, its own too.
@@ -15,6 +17,9 @@ struct Coupling {
   bool mirrored = false;
   bool with_itself() const { return first == second; }
   double weight() const { return with_itself() ? 0.5 : 1.0; }
+  Eigen::Vector3d image() const {  ///< diagonal of Q
+    return mirrored ? Eigen::Vector3d(-1.0, 1.0, -1.0) : Eigen::Vector3d::Ones();
+  }
   bool operator==(const Coupling& other) const = default;
 };
 

@@ -59,6 +59,9 @@ struct Profile {
   At at(double s) const;
 };
 
+/// d²r/ds² at a sample.
+Eigen::Vector3d curvature(const rod::Material& material, const Piece& piece, Eigen::Index sample);
+
 Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod, const VectorXd& x,
                 const Loads& loads);
 

@@ -27,7 +27,7 @@ struct SelfDistance {
 /// @param radius  of the rod [ρ]; 0: not given
 std::optional<SelfDistance> self_distance(const Profile& whole, double radius);
 
-/// Where two links come nearest to each other, at a local minimum of their distance; `far` where there is none.
+/// Where two links come nearest to each other, at a local minimum of their distance, of those under three times 2r.
 struct Approach {
   int link = 0, other = 0;  ///< of the chain, link >= other
   bool mirrored = false;    ///< half chain: the other is the image of that link

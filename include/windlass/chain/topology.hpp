@@ -40,6 +40,8 @@ struct Topology {
   Seat seat(int joint) const { return on.empty() ? Seat{} : on[joint]; }
   int obstacle(int joint) const { return seat(joint).obstacle; }
   std::vector<Coupling> couplings() const;
+  /// Does a link begin or end where strands touch?
+  bool beside_strand(int link) const { return seat(link).strand != 0 || seat(link + 1).strand != 0; }
   /// Whole rod, e.g. "tail touch gap line gap touch tail"; a contact on the second obstacle reads "touch:2", one with
   /// another strand "cross".
   std::string text() const;

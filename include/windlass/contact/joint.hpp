@@ -119,7 +119,8 @@ class Joint {
 
   /// Joints that another strand of the rod may press on (chain::Coupling).
   virtual Centreline centreline(const double* w) const {
-    return (void)w, throw std::logic_error("no strand presses on this joint"), Centreline();
+    (void)w;
+    throw std::logic_error("no strand presses on this joint");
   }
   /// Adds f·∂²r/∂w∂w'. tangent × tangent.
   virtual void place_curvature(const double* w, const Eigen::Vector3d& f, SmallMatrix& out) const {

@@ -57,12 +57,15 @@ bool solve_in_place(RodProblem& problem, Vector& x, const Vector& p);
 /// @returns whether Newton converged; x and p are the solution then, and unspecified otherwise
 bool solve_at_length(RodProblem& problem, Vector& x, Vector& p, int link, double length);
 
-/// Where a line that carries no pressure over its length begins: p(0) as its length goes to zero, at which it has no
-/// equations of its own and the touch in its place has singular ones.
-struct LineBegins {
+/// The state in which a link has no length, p(0) with it: extrapolated, for there the link has no equations of its own. So a
+/// line that carries no pressure over its length begins, and so touches of strands pass the edges of lines, or each other.
+struct Vanishing {
   double p, precision;
+  Vector x;
 };
-std::optional<LineBegins> where_line_begins(RodProblem& problem, Vector x, Vector p, int link);
+/// @param shortest  length that it is extrapolated from, of four that double
+std::optional<Vanishing> where_length_vanishes(RodProblem& problem, Vector x, Vector p, int link,
+                                               double shortest);
 
 /// Lets a straight link bow off its obstacle, which it does at its buckling load: solves, p(0) free, for a state with a
 /// slight bow. A link that is straight solves the same equations at any load, so the bow is prescribed.

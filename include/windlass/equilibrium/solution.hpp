@@ -58,7 +58,6 @@ struct JointRecord {
   /// size of the force between them, along the line between their places.
   int partner = -1;
   double strand_force = 0.0;
-  Eigen::Vector3d strand_normal = Eigen::Vector3d::Zero();  ///< direction of that force on this joint
   Eigen::Vector3d holding_direction() const { return {std::cos(angle), std::sin(angle), 0.0}; }
 };
 

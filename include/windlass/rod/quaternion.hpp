@@ -48,9 +48,9 @@ inline Eigen::Matrix3d directors(const Quaternion& q) {
   return Eigen::Quaterniond(q(0), q(1), q(2), q(3)).toRotationMatrix();
 }
 
-/// Increment of q as space turns about e_x by `turn` and the body about d3 by `spin` [rad], to first order.
-inline Eigen::Vector3d turn_increment(const Quaternion& q, double turn, double spin) {
-  return 0.5 * (turn * directors(q).row(0).transpose() + spin * Eigen::Vector3d::UnitZ());
+/// Increment of q as space turns by the rotation vector `turn` and the body about d3 by `spin` [rad], to first order.
+inline Eigen::Vector3d turn_increment(const Quaternion& q, const Eigen::Vector3d& turn, double spin) {
+  return 0.5 * (directors(q).transpose() * turn + spin * Eigen::Vector3d::UnitZ());
 }
 
 }  // namespace windlass::rod

@@ -1,0 +1,132 @@
+#include "profile_contacts.hpp"
+
+#include <cmath>
+
+#include "windlass/obstacle/cylinder.hpp"
+#include "windlass/rod/quaternion.hpp"
+
+namespace windlass::chain {
+
+using contact::JointKind;
+using Eigen::Vector3d;
+
+Vector3d force_before(int joint, const Vector3d& before, const Vector3d& after) {
+  return joint > 0 ? before : Vector3d(after(0), -after(1), after(2));  // the half-turn about e_y, reversed
+}
+
+Vector3d strand_push(const Chain& chain, const VectorXd& x, int joint) {
+  const int k = chain.coupling_of(joint);
+  return k < 0 ? Vector3d::Zero() : Vector3d(chain.strand_force(x, k) * chain.crossing(x, k).push_on(joint));
+}
+
+double copies(const Topology& topology, int joint) {
+  return topology.half && !(topology.mid_touch && joint == 0) ? 2.0 : 1.0;
+}
+
+namespace {
+
+/// Of the internal force at a joint, from before it to behind.
+Vector3d jump(const std::vector<Piece>& pieces, int joint) {
+  const Vector3d after = pieces[joint].n.col(0);
+  const Vector3d before = joint > 0 ? Vector3d(pieces[joint - 1].n.rightCols<1>()) : after;
+  return force_before(joint, before, after) - after;
+}
+
+/// Contacts with an obstacle.
+Contact obstacle_contact(const Chain& chain, const Topology& topology, const RodKind& rod, const VectorXd& x,
+                         int j, const std::vector<Piece>& pieces) {
+  Contact c;
+  const Joint& joint = chain.joint(j);
+  const obstacle::Chart here = joint.chart(chain.coordinates(x, j));
+  c.edge = joint.kind() == JointKind::edge;
+  c.obstacle = topology.obstacle(j);
+  c.angle = joint.surface()->turn(joint.on_surface(chain.coordinates(x, j)));
+  c.r = here.r;
+  c.normal = c.surface_normal = here.normal;
+  const Piece& after = pieces[j];
+  c.force = jump(pieces, j).dot(c.normal);
+  const Vector3d t = rod::directors(after.q.col(0)).col(2);
+  const Eigen::Vector2d along = here.tangents.transpose() * t;
+  c.gap_curvature = curvature(rod.material(), after, 0).dot(c.normal) + along.dot(here.bend * along);
+  return c;
+}
+
+/// Contacts with another strand. Of the distance D(s₁, s₂) at its least: D₁₁ = 1/D + e·r₁″, D₂₂ = 1/D − e·r₂″,
+/// D₁₂ = −t₁·t₂/D.
+Contact strand_contact(const Chain& chain, const Topology& topology, const RodKind& rod, const VectorXd& x,
+                       int j, int coupling, const std::vector<Piece>& pieces) {
+  const Chain::Crossing at = chain.crossing(x, coupling);
+  const Coupling& with = at.coupling;
+  Contact c;
+  c.obstacle = -1;
+  c.coupling = coupling;
+  c.r = chain.joint(j).centreline(chain.coordinates(x, j)).r;
+  c.angle = obstacle::Cylinder::angle(c.r);
+  c.normal = at.push_on(j);
+  c.force = chain.strand_force(x, coupling);
+  if (const obstacle::Surface* surface = chain.joint(j).surface()) {
+    c.obstacle = topology.obstacle(j);
+    c.surface_normal = surface->normal(c.r);
+    c.reaction = (jump(pieces, j) - c.force * c.normal).dot(c.surface_normal);
+  }
+  const Vector3d first = curvature(rod.material(), pieces[with.first], 0),
+                 second = with.image().cwiseProduct(curvature(rod.material(), pieces[with.second], 0));
+  Eigen::Matrix2d bend;
+  bend(0, 0) = 1.0 / at.distance + at.direction.dot(first);
+  bend(1, 1) = 1.0 / at.distance - at.direction.dot(second);
+  bend(0, 1) = bend(1, 0) = -at.first.t.dot(at.second.t) / at.distance;
+  c.gap_curvature = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(bend).eigenvalues()(0);
+  return c;
+}
+
+/// Strands have no obstacle to count turns round: beyond one the rod goes on where it is.
+void carry_turns(std::vector<Contact>& contacts, std::vector<Piece>& pieces) {
+  const auto turns = [](double from, double to) {
+    return 2.0 * M_PI * std::round((from - to) / (2.0 * M_PI));
+  };
+  const auto last = [](const Piece& piece) { return piece.angle(piece.angle.size() - 1); };
+  for (Contact& c : contacts) {
+    if (c.coupling < 0) continue;
+    Piece &before = pieces[c.joint - 1], &after = pieces[c.joint];
+    if (c.s > 0.0)
+      after.angle.array() += turns(last(before), after.angle(0));
+    else
+      before.angle.array() += turns(after.angle(0), last(before));
+    c.angle += turns(after.angle(0), c.angle);
+  }
+}
+
+}  // namespace
+
+void add_contacts(const Chain& chain, const Topology& topology, const RodKind& rod, const VectorXd& x,
+                  const Loads& loads, Profile& out) {
+  for (int j = 0; j < chain.joint_count(); ++j) {
+    if (!chain.is_contact(j)) continue;
+    const int coupling = chain.coupling_of(j);
+    Contact c = coupling < 0 ? obstacle_contact(chain, topology, rod, x, j, out.pieces)
+                             : strand_contact(chain, topology, rod, x, j, coupling, out.pieces);
+    c.joint = j;
+    c.s = chain.arclength(x, loads, j);
+    c.z = c.r(2);
+    out.contacts.push_back(c);
+  }
+  // Free pieces take their turn count from a neighbouring contact.
+  for (const Contact& c : out.contacts)
+    for (const int i : {c.joint - 1, c.joint}) {
+      if (i < 0 || c.coupling >= 0 || out.pieces[i].stretch == Stretch::line) continue;
+      Piece& piece = out.pieces[i];
+      const double here = i == c.joint ? piece.angle(0) : piece.angle(piece.angle.size() - 1);
+      piece.angle.array() += 2.0 * M_PI * std::round((c.angle - here) / (2.0 * M_PI));
+    }
+  carry_turns(out.contacts, out.pieces);
+}
+
+double total_contact_force(const Profile& profile, const Topology& topology) {
+  double sum = 0.0;
+  for (const Piece& piece : profile.pieces) sum += piece.force * (topology.half ? 2.0 : 1.0);
+  for (const Contact& c : profile.contacts)
+    sum += (c.coupling < 0 ? c.force : c.reaction.value_or(0.0)) * copies(topology, c.joint);
+  return sum;
+}
+
+}  // namespace windlass::chain

@@ -1,0 +1,166 @@
+#include "strand_successors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace windlass::equilibrium {
+
+using chain::Stretch;
+
+namespace {
+
+/// A touch between strands passes the edge of a line contact: the gap between the two is a stretch of the line now, or the
+/// other way round.
+std::optional<Successor> strand_passes_edge(int link, Strip strip) {
+  const auto strand = [&](int joint) { return strip.on[joint].strand != 0; };
+  const bool before = link > 0 && strand(link), after = strand(link + 1);
+  const bool line = strip.is_line(link);
+  // The other joint is an edge: of the line itself, or of the one beyond the gap.
+  const bool from_left = after && !before && link > 0 && strip.is_line(link - 1) != line;
+  const bool from_right = before && !after && strip.is_line(link + 1) != line;
+  if (!from_left && !from_right) return std::nullopt;
+  strip.parts[link].kind = line ? Stretch::gap : Stretch::line;
+  strip.parts[link].fresh = true;
+  const int edge = from_left ? link : link + 1, other = from_left ? link + 1 : link;
+  std::swap(strip.on[edge].strand, strip.on[other].strand);
+  strip.on[other].obstacle = strip.on[edge].obstacle;
+  return strip.successor();
+}
+
+/// The other joint of a touch between strands; j itself where it touches its own image.
+int partner(const Strip& strip, int j) {
+  const int strand = std::abs(strip.on[j].strand);
+  for (int k = 0; k < static_cast<int>(strip.on.size()); ++k)
+    if (k != j && std::abs(strip.on[k].strand) == strand) return k;
+  return j;
+}
+
+/// Two touches with different strands pass each other along the rod; on a half chain one may pass its own image at s = 0,
+/// and is then pressed on by the image of what pressed on it.
+std::optional<Successor> touches_pass(int link, Strip strip) {
+  const auto strand = [&](int joint) { return std::abs(strip.on[joint].strand); };
+  if (strip.starts_at_mid(link)) {
+    if (strip.mid_touch || strand(1) == 0 || partner(strip, 1) == 1) return std::nullopt;
+    strip.on[1].strand = -strip.on[1].strand;
+  } else {
+    if (strand(link) == 0 || strand(link + 1) == 0 || strand(link) == strand(link + 1)) return std::nullopt;
+    std::swap(strip.on[link].strand, strip.on[link + 1].strand);
+  }
+  strip.parts[link].fresh = true;
+  return strip.successor();
+}
+
+/// Two touches of the same two strands meet, at both places, and are one.
+std::optional<Successor> touches_meet(int link, Strip strip) {
+  if (strip.starts_at_mid(link) || strip.on[link].strand == 0 || strip.on[link + 1].strand == 0)
+    return std::nullopt;
+  const int first = partner(strip, link), second = partner(strip, link + 1);
+  if (std::abs(first - second) != 1 || first == link + 1) return std::nullopt;
+  const int other = std::min(first, second), strand = strip.on[link].strand;
+  for (const int joint : {other, link}) strip.on[joint].strand = strand;
+  for (const int gap : {std::max(link, other), std::min(link, other)}) strip.collapse(gap);
+  return strip.successor();
+}
+
+int new_strand(const Strip& strip) {
+  int most = 0;
+  for (const chain::Seat& seat : strip.on) most = std::max(most, std::abs(seat.strand));
+  return most + 1;
+}
+
+}  // namespace
+
+std::optional<Successor> after_length_beside_strand(int link, const Strip& strip) {
+  if (const auto met = touches_meet(link, strip)) return met;
+  if (const auto passed = touches_pass(link, strip)) return passed;
+  return strand_passes_edge(link, strip);
+}
+
+std::vector<Successor> strands_part(int j, Strip strip) {
+  const int other = partner(strip, j);
+  for (const int joint : {std::max(j, other), std::min(j, other)}) {
+    strip.merge(joint - 1, joint, joined(strip.parts[joint - 1].kind, strip.parts[joint].kind));
+    if (j == other) break;
+  }
+  return {strip.successor()};
+}
+
+std::vector<Successor> strand_lifts(int j, Strip strip) {
+  const double s = strip.s[j],
+               length = std::min({0.05, 0.2 * (s - strip.s[j - 1]), 0.2 * (strip.s[j + 1] - s)});
+  const chain::Seat seat = strip.on[j];
+  strip.split(j, s + length, Stretch::gap, Stretch::line);
+  strip.split(j - 1, s - length, Stretch::line, Stretch::gap);
+  strip.on[j] = strip.on[j + 2] = {seat.obstacle, 0};
+  strip.on[j + 1] = seat;
+  strip.parts[j].fresh = strip.parts[j + 1].fresh = true;
+  return {strip.successor()};
+}
+
+std::vector<Successor> strands_meet(const ContactEvent& event, Strip strip) {
+  constexpr double same = 1e-6;
+  const int strand = new_strand(strip);
+  const bool own_image =
+      event.mirrored && event.place == event.other && std::abs(event.s - event.s_other) < same;
+  const auto touch = [&](double at, int mark) { strip.cut(strip.part_at(at), at, {0, mark}); };
+  touch(event.s, strand);
+  if (!own_image) touch(event.s_other, event.mirrored ? -strand : strand);
+  return {strip.successor()};
+}
+
+std::vector<Successor> strands_split(const ContactEvent& event, const Strip& strip,
+                                     const chain::Profile& profile) {
+  const int j = event.place, other = partner(strip, j);
+  std::vector<Successor> out;
+  for (const double part : {0.05, 0.02, 0.1}) {
+    const double length = part * profile.unit_length;
+    Strip split = strip;
+    const auto widen = [&](int joint, int before, int after) {
+      const bool on_line = split.is_line(joint - 1) && split.is_line(joint);
+      split.split(joint, strip.s[joint] + 0.5 * length, on_line ? Stretch::line : Stretch::gap,
+                  split.parts[joint].kind);
+      split.on[joint + 1] = split.on[joint];
+      split.s[joint] -= 0.5 * length;
+      split.on[joint].strand = before;
+      split.on[joint + 1].strand = after;
+      split.parts[joint].fresh = true;
+    };
+    const int old = strip.on[j].strand, fresh = new_strand(strip);
+    if (j == other) {
+      widen(j, old, -old);
+      out.push_back(split.successor());
+      continue;
+    }
+    for (const bool opposite : {true, false}) {
+      split = strip;
+      const int low = std::min(j, other), high = std::max(j, other);
+      const int sign = strip.on[low].strand == strip.on[high].strand ? 1 : -1;
+      const int first = std::abs(strip.on[low].strand);
+      // Images run the other way.
+      const bool crossed = opposite == (sign > 0);
+      widen(high, sign * (crossed ? fresh : first), sign * (crossed ? first : fresh));
+      widen(low, first, fresh);
+      out.push_back(split.successor());
+    }
+  }
+  return out;
+}
+
+int image_strand(const Successor& next, int joint) {
+  const auto strand = [&](int j) { return next.topology.seat(j).strand; };
+  const int count = static_cast<int>(next.s.size());
+  int other = -1, image = -1;
+  for (int j = 0; j < count; ++j)
+    if (j != joint && strand(j) == strand(joint)) other = j;
+  if (other < 0 || strand(joint) == 0) return strand(joint);
+  if (next.s[other] * next.s[joint] > 0.0)
+    return strand(joint) + count;  // both on this side: a touch of its own
+  for (int j = 0; j < count; ++j)
+    if (strand(j) != 0 && next.s[j] * next.s[joint] > 0.0 &&
+        (image < 0 || std::abs(next.s[j] + next.s[other]) < std::abs(next.s[image] + next.s[other])))
+      image = j;
+  return strand(image);
+}
+
+}  // namespace windlass::equilibrium

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "strip.hpp"
+
+/// What follows an event at a touch of the rod with itself.
+namespace windlass::equilibrium {
+
+/// An arc beside such a touch has no length left: two touches meet or pass each other, or one passes the edge of a line.
+/// nullopt: the link is beside none.
+std::optional<Successor> after_length_beside_strand(int link, const Strip& strip);
+
+/// Two strands that part: at each place the arcs beside it become one.
+std::vector<Successor> strands_part(int j, Strip strip);
+
+/// A strand that lies on an obstacle where another presses on it lifts off there: the line ends before and begins anew
+/// behind, and between the other carries it alone.
+std::vector<Successor> strand_lifts(int j, Strip strip);
+
+/// Two strands that meet, or one that meets its own image.
+std::vector<Successor> strands_meet(const ContactEvent& event, Strip strip);
+
+/// A touch of two strands where they come apart into two touches, along the direction in which their distance no longer
+/// grows: of s₁ and s₂ one up and the other down, or both up.
+std::vector<Successor> strands_split(const ContactEvent& event, const Strip& strip,
+                                     const chain::Profile& profile);
+
+/// The strand that the image of a joint touches, on a chain where the image of every joint is one, too: a joint that touches
+/// the image of y has its own image touch y.
+/// @param joint  of `next`, on the side that changed
+int image_strand(const Successor& next, int joint);
+
+}  // namespace windlass::equilibrium
