@@ -186,8 +186,12 @@ contact::SmallVector Chain::rise(const VectorXd& x, const Placed& placed, int li
   const int places = joints_[link]->places();
   if (!joints_[link]->surface()) return Eigen::Vector3d(difference(0), difference(1), difference(2));
   const Eigen::Vector2d step(difference(0), places > 1 ? difference(1) : 0.0);
-  const Eigen::Index size = placed.left.x.size(), on_line = places;
-  if (size == on_line) return step.head(size);  // on the unrolled surface
+  const Eigen::Index size = placed.left.x.size();
+  if (size == places) {  // on the unrolled surface
+    contact::SmallVector unrolled(size);
+    for (int k = 0; k < places; ++k) unrolled(k) = step(k);
+    return unrolled;
+  }
   const Joint& joint = *joints_[link];
   return joint.surface()->rise(joint.on_surface(coordinates(x, link)), step).head(size);
 }
