@@ -133,9 +133,8 @@ void RunWriter::add_point(const BranchRow& row, const equilibrium::Solution& sol
 
 void RunWriter::add_special_point(const SpecialPoint& point) {
   special_points_.push_back(point);
-  // the solution first: a special point that is listed can always be restarted from
-  if (committed_ < store_.size()) commit();
-  write_special_points();
+  special_stale_ = true;
+  if (std::chrono::steady_clock::now() - last_commit_ >= special_pause_) commit();
 }
 
 void RunWriter::add_lost_branch(const LostBranch& lost) {
@@ -157,23 +156,30 @@ void RunWriter::set_stability(const std::string& name, const equilibrium::Stabil
 
 void RunWriter::commit() {
   const auto begin = std::chrono::steady_clock::now();
-  store_.write(folder_ / points_file);
-  if (rows_stale_) rewrite_branches();
-  write_info();
-  committed_ = store_.size();
+  write_stale();
   last_commit_ = std::chrono::steady_clock::now();
   set_pause(last_commit_ - begin);
 }
 
+void RunWriter::write_stale() {
+  // The solutions first: a special point that is listed can always be restarted from.
+  if (committed_ != store_.size()) store_.write(folder_ / points_file);
+  if (rows_stale_) rewrite_branches();
+  if (special_stale_) write_special_points();
+  write_info();
+  committed_ = store_.size();
+}
+
 void RunWriter::set_pause(std::chrono::duration<double> writing) {
-  // at most 5 % of the time of a run goes into rewriting points.h5
-  pause_ = save_every_ ? std::chrono::duration<double>(*save_every_)
-                       : std::max(std::chrono::duration<double>(1.0), 20.0 * writing);
+  // At most 5 % of the time of a run goes into rewriting points.h5.
+  const std::chrono::duration<double> rare = 20.0 * writing;
+  special_pause_ = save_every_ ? std::chrono::duration<double>(*save_every_) : rare;
+  pause_ = save_every_ ? special_pause_ : std::max(std::chrono::duration<double>(1.0), rare);
 }
 
 void RunWriter::checkpoint(nlohmann::json state) {
   const auto begin = std::chrono::steady_clock::now();
-  if (committed_ != store_.size()) commit();
+  if (committed_ != store_.size() || special_stale_) commit();
   const nlohmann::json checkpoint = {{"points", store_.size()},
                                      {"special_points", special_points_.size()},
                                      {"lost_branches", info_.lost_branches.size()},
@@ -189,10 +195,7 @@ void RunWriter::finish(const std::string& status, const Timings& timings, ordere
   info_.status = status;
   info_.timings = timings;
   info_.summary = std::move(summary);
-  if (committed_ != store_.size()) store_.write(folder_ / points_file);
-  if (rows_stale_) rewrite_branches();
-  write_info();
-  committed_ = store_.size();
+  write_stale();
   if (status != "interrupted") remove_file(folder_ / checkpoint_file);
 }
 
@@ -217,6 +220,7 @@ void RunWriter::write_special_points() {
   ordered_json list = ordered_json::array();
   for (const SpecialPoint& point : special_points_) list.push_back(to_json(point));
   replace_stamped(special_file, list.dump(2) + "\n");
+  special_stale_ = false;
 }
 
 void RunWriter::write_info() {

@@ -19,9 +19,9 @@
 /// run.json their own, the others in run.json; what does not fit is refused as damaged, unread.
 ///
 /// At every moment, also after SIGKILL or a full disk, the folder is readable. branches.csv grows by one write
-/// a row; the other files are replaced whole (temporary file + rename). points.h5 is replaced when a special
-/// point is recorded, at the end, and otherwise once a second or more seldom, such that writing it stays below
-/// 5 % of the run: a kill loses at most that last stretch of points.h5.
+/// a row; the other files are replaced whole (temporary file + rename). points.h5 is replaced when a special point is
+/// recorded, at the end, and otherwise once a second, all of it more seldom where writing would take more than 5 % of
+/// the run: a kill loses at most that last stretch, of special_points.json too.
 namespace windlass::output {
 
 struct WriterOptions {
@@ -64,7 +64,7 @@ class RunWriter {
 
   /// Rows are on disk on return; the solution at the next commit. @throws OutputError
   void add_point(const BranchRow& row, const equilibrium::Solution& solution);
-  /// Commits all points, then special_points.json. @throws OutputError
+  /// Listed on disk at the next commit, which comes now unless commits take too much of the run's time. @throws OutputError
   void add_special_point(const SpecialPoint& point);
   void add_lost_branch(const LostBranch& lost);
   /// Gives a point that exists on disk its index and eigenvalues (branches.csv and points.h5).
@@ -93,6 +93,7 @@ class RunWriter {
   void replace_stamped(const char* file, const std::string& text);
   void rewrite_branches();
   void write_special_points();
+  void write_stale();
   void write_info();
 
   std::filesystem::path folder_;
@@ -104,11 +105,13 @@ class RunWriter {
   std::vector<SpecialPoint> special_points_;
   PointStore store_;
   std::size_t committed_ = 0;
-  bool rows_stale_ = false;  ///< rows_ holds what branches.csv does not
+  bool rows_stale_ = false;     ///< rows_ holds what branches.csv does not
+  bool special_stale_ = false;  ///< special_points_ holds what special_points.json does not
   bool started_ = false;     ///< run.json is on disk
   std::optional<double> save_every_;
   std::chrono::steady_clock::time_point last_commit_{}, last_checkpoint_{};
   std::chrono::duration<double> pause_{1.0};
+  std::chrono::duration<double> special_pause_{0.0};  ///< between commits for a special point's sake
 };
 
 /// Everything a run folder holds.

@@ -191,6 +191,7 @@ BOOST_AUTO_TEST_CASE(a_killed_run_is_readable_and_can_go_on) {
     add(writer, 1, 1, 5.0);
     add(writer, 1, 2, 4.0, "BP1");
     writer.add_special_point({"BP1", "branch_point", 1, 4.0, two_pi, 1e-9, 1, {}, "", "", {}});
+    writer.commit();
     add(writer, 1, 3, 3.0);
     raise(SIGKILL);
   });
@@ -218,7 +219,10 @@ BOOST_AUTO_TEST_CASE(kills_at_any_moment_leave_a_readable_folder) {
     if (child == 0) {
       RunWriter writer = RunWriter::resume(folder);
       for (int point = 1;; ++point) {
-        add(writer, 1, point, 1.0 + 1.0 / point);
+        const std::string label = point % 3 == 0 ? "BP" + std::to_string(point) : "";
+        add(writer, 1, point, 1.0 + 1.0 / point, label);
+        if (!label.empty())
+          writer.add_special_point({label, "branch_point", 1, 1.0, two_pi, 1e-9, 1, {}, "", "", {}});
         writer.commit();  // as often as possible: most of the time is spent inside the files
       }
     }
@@ -229,6 +233,8 @@ BOOST_AUTO_TEST_CASE(kills_at_any_moment_leave_a_readable_folder) {
     BOOST_TEST(run.rows.size() >= run.points.size());
     BOOST_TEST(run.rows.size() <= run.points.size() + 1);
     for (std::size_t i = 0; i < run.points.size(); ++i) BOOST_TEST(run.points.get(i).T == run.rows[i].T);
+    for (const output::SpecialPoint& listed : run.special_points)  // each can be restarted from
+      BOOST_TEST(run.points.find(listed.label).has_value());
   }
 }
 
