@@ -26,27 +26,37 @@ bool holds(Entry& entry) {
   return admissible(contact_events(entry.problem->profile(entry.x, entry.p), entry.problem->topology()));
 }
 
+/// What vanishes with an arc about s, in the topology without it: the curvature of the touch there, or the pressure of the
+/// line. Of several the one that comes last in the order of events.
+std::optional<std::string> vanishing_with(const chain::Profile& shape, const Topology& topology, double s) {
+  const double least = least_length * shape.unit_length;
+  std::optional<std::string> name;
+  for (const ContactEvent& event : contact_events(shape, topology)) {
+    if (event.kind == Kind::curvature && std::abs(event.s - s) < 10.0 * least) return event.name();
+    const bool unpressed = event.kind == Kind::buckling && shape.pieces[event.place].buckling;
+    if (event.kind != Kind::pressure && !unpressed) continue;
+    const Eigen::VectorXd& places = shape.pieces[event.place].s;
+    const double begin = places(0), end = places(places.size() - 1);
+    // The touches of a bow have moved since it was straight.
+    constexpr double moved = 0.05;
+    const double beyond = unpressed ? moved * (end - begin) : least;
+    if (begin - beyond < s && s < end + beyond) name = event.name();
+  }
+  return name;
+}
+
 /// From a state whose arc about s has nearly vanished to the one where it does, the event itself. In the topology without
 /// the arc that is a zero of the curvature of the touch at s, or of the pressure there.
 /// @returns the precision of p(0), nothing if there is no such zero near
 std::optional<double> locate_from_beyond(Entry& entry, double s) {
-  const double least = least_length * entry.problem->rod().unit_length;
+  std::optional<std::string> name;  // chosen once: on the way to the event it moves
   const auto value_at = [&](Entry& at) -> std::optional<double> {
     if (at.problem->polish(at.x, at.p, 18) < 0) return std::nullopt;
     const chain::Profile shape = at.problem->profile(at.x, at.p);
-    std::optional<double> pressure;
-    for (const ContactEvent& event : contact_events(shape, at.problem->topology())) {
-      if (event.kind == Kind::curvature && std::abs(event.s - s) < 10.0 * least) return event.value;
-      const bool unpressed = event.kind == Kind::buckling && shape.pieces[event.place].buckling;
-      if (event.kind != Kind::pressure && !unpressed) continue;
-      const Eigen::VectorXd& places = shape.pieces[event.place].s;
-      const double begin = places(0), end = places(places.size() - 1);
-      // The touches of a bow have moved since it was straight.
-      constexpr double moved = 0.05;
-      const double beyond = unpressed ? moved * (end - begin) : least;
-      if (begin - beyond < s && s < end + beyond) pressure = event.value;
-    }
-    return pressure;
+    if (!name) name = vanishing_with(shape, at.problem->topology(), s);
+    for (const ContactEvent& event : contact_events(shape, at.problem->topology()))
+      if (name && event.name() == *name) return event.value;
+    return std::nullopt;
   };
   const double scale = std::max(1.0, std::abs(entry.p(0))), start = entry.p(0);
   Entry other = entry;

@@ -63,6 +63,7 @@ RunWriter RunWriter::create(const fs::path& folder, const scene::Scene& scene, c
   writer.rewrite_branches();
   writer.write_special_points();
   writer.started_ = true;
+  writer.committed_ = std::string::npos;  // nothing is on disk yet
   writer.commit();
   if (fresh) {
     std::error_code error;
