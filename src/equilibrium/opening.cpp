@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/rod/quaternion.hpp"
@@ -119,6 +120,35 @@ BucklingMode buckling_mode(RodProblem& problem, const Vector& x, const Vector& p
   return mode;
 }
 
+/// The gaps so short that their edges answer steeply to all that is wrong in a state.
+std::vector<int> short_gaps(RodProblem& problem, const Vector& x, const Vector& p) {
+  constexpr double most = 0.5;
+  const contact::Loads at = problem.loads(p);
+  std::vector<int> links;
+  for (int i = 0; i < problem.chain().link_count(); ++i)
+    if (problem.topology().stretches[i] == chain::Stretch::gap &&
+        problem.chain().length(x, at, i) < most * problem.rod().unit_length)
+      links.push_back(i);
+  return links;
+}
+
+/// Newton's method for states with short gaps. An edge that slides by δ leaves its line by δ², which a gap of length ℓ takes for
+/// a force δ²/ℓ³, next to which the force ℓ³ that says where the edge belongs is nothing: after each correction the shape
+/// adjusts to the edges as they are then. @param held_now  the equations beside the problem's, at x and p
+bool solve_by_turns(RodProblem& problem, Vector& x, Vector& p, const std::function<Borders()>& held_now) {
+  const bool by_turns = !short_gaps(problem, x, p).empty();
+  const int turns = by_turns ? 20 : 1, corrections = by_turns ? 2 : 20;  // the last correction is not taken
+  for (int k = 0; k < turns; ++k) {
+    const Borders held = held_now();
+    Iterate iterate = iterate_of(problem, x, p, held);
+    const continuation::CorrectorReport report = solve_cut(problem, held, iterate, corrections);
+    x = iterate.x, p = iterate.p;
+    if (report.converged) return true;
+    if (!by_turns || report.iterations < corrections || !settle_shape(problem, x, p, {})) return false;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool enter_bowed(RodProblem& problem, Vector& x, Vector& p, int link) {
@@ -139,8 +169,10 @@ bool enter_bowed(RodProblem& problem, Vector& x, Vector& p, int link) {
   return converged;
 }
 
-bool settle_shape(RodProblem& problem, Vector& x, Vector& p, const std::vector<int>& opened) {
-  const Borders held = hold_edges(problem.chain(), opened);
+bool settle_shape(RodProblem& problem, Vector& x, const Vector& p, const std::vector<int>& opened) {
+  std::vector<int> links = short_gaps(problem, x, p);
+  links.insert(links.end(), opened.begin(), opened.end());
+  const Borders held = hold_edges(problem.chain(), links);
   Iterate iterate = iterate_of(problem, x, p, held);
   constexpr int most = 5;  // the last one is not taken: a start for what follows, no solution
   const continuation::CorrectorReport report = solve_cut(problem, held, iterate, most);
@@ -163,22 +195,15 @@ std::optional<Vanishing> where_length_vanishes(RodProblem& problem, Vector x, Ve
 }
 
 bool solve_in_place(RodProblem& problem, Vector& x, const Vector& p) {
-  const Borders none = borders(problem.size(), 0);
-  Iterate iterate = iterate_of(problem, x, p, none);
-  constexpr int most = 20;
-  const bool converged = solve_cut(problem, none, iterate, most).converged;
-  x = iterate.x;
-  return converged;
+  Vector fixed = p;
+  return solve_by_turns(problem, x, fixed, [&] { return borders(problem.size(), 0); });
 }
 
 bool solve_at_length(RodProblem& problem, Vector& x, Vector& p, int link, double length) {
   const chain::Chain& chain = problem.chain();
-  const Borders held = change_length(chain, link, length - chain.length(x, problem.loads(p), link));
-  Iterate iterate = iterate_of(problem, x, p, held);
-  constexpr int most = 20;
-  const bool converged = solve_cut(problem, held, iterate, most).converged;
-  x = iterate.x, p = iterate.p;
-  return converged;
+  return solve_by_turns(problem, x, p, [&] {
+    return change_length(chain, link, length - chain.length(x, problem.loads(p), link));
+  });
 }
 
 }  // namespace windlass::equilibrium

@@ -158,17 +158,6 @@ std::optional<continuation::Transition::Located> located_vanishing(Entry here, i
   return continuation::Transition::Located{here.problem, at->x, here.p, at->precision};
 }
 
-/// The links that open, and the gaps that are short still: their edges answer steeply to all that is wrong in a guess.
-std::vector<int> with_short_gaps(Entry& entry, std::vector<int> links) {
-  constexpr double short_gap = 0.5;
-  const std::vector<chain::Stretch>& stretches = entry.problem->topology().stretches;
-  for (int i = 0; i < static_cast<int>(stretches.size()); ++i)
-    if (stretches[i] == chain::Stretch::gap &&
-        length_of(entry, i) < short_gap * entry.problem->rod().unit_length)
-      links.push_back(i);
-  return links;
-}
-
 /// How far in p(0) the place where a tail has no length is from where it has hardly any.
 double to_the_end(RodProblem& problem, const Vector& x, const Vector& p, int link) {
   const double length = problem.chain().length(x, problem.loads(p), link);
@@ -222,7 +211,7 @@ bool bring_to(Entry& entry, int link, double p) {
 /// @param as_long  as it is at p(0) = p; else brought to the length that arcs are entered with
 std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, int depth, bool as_long,
                                   double p) {
-  if (!settle_shape(*entry.problem, entry.x, entry.p, with_short_gaps(entry, opened))) return std::nullopt;
+  if (!settle_shape(*entry.problem, entry.x, entry.p, opened)) return std::nullopt;
   // What only redraws a state leaves all else where it is at the same load; at another, gaps that are open already move far.
   Entry here = entry;
   here.p(0) = p;

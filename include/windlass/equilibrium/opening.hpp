@@ -44,10 +44,10 @@ Limit<Value> limit_at_zero(std::array<Value, levels> values) {
   return {values[0], before};
 }
 
-/// Lets the shape adjust while the edges of the opened links stay where they are, their location conditions waived: a few
-/// corrections, as a start for what follows.
+/// Lets the shape adjust while the edges of the opened links and of short gaps stay where they are, their location conditions
+/// waived: a few corrections, as a start for what follows.
 /// @returns false where the matrix has no inverse or a length or tension leaves its domain
-bool settle_shape(RodProblem& problem, Vector& x, Vector& p, const std::vector<int>& opened);
+bool settle_shape(RodProblem& problem, Vector& x, const Vector& p, const std::vector<int>& opened);
 
 /// Solves for the state at p, with steps cut where an arc would lose more than half its length.
 /// @returns whether Newton converged; x is the solution then, and unspecified otherwise
