@@ -1,6 +1,7 @@
 #include "windlass/equilibrium/contact_events.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
 
 #include "dense_samples.hpp"
@@ -48,6 +49,33 @@ std::optional<Least> on_its_way(const Profile& profile, const Piece& piece, cons
   return Least{surface.gap(at.r), s};
 }
 
+/// A dip of the gap beside a touch that is about to be two. With g'' at the touch nearly gone g = δ² h(δ) dips at once, to
+/// depths that the element's polynomial does not resolve: so on the rod's own way, and of h, for g has no minimum there before
+/// it has none that is positive.
+std::optional<Least> dip_beside(const Profile& profile, const Piece& piece, const Contact& touch, bool ahead) {
+  const Eigen::Index last = piece.s.size() - 1, node = ahead ? 0 : last;
+  const obstacle::Surface& surface = profile.obstacles[touch.obstacle];
+  const double way = ahead ? 1.0 : -1.0;
+  const double reach = std::abs(piece.s(ahead ? piece.stride : last - piece.stride) - piece.s(node));
+  const rod::Section start{piece.r.col(node), piece.m.col(node), piece.q.col(node)};
+  const Eigen::Vector3d n = piece.n.col(node);
+  const auto h = [&](double d) {
+    return surface.gap(rod::free_flow(start, n, profile.material, way * d).r) / (d * d);
+  };
+  constexpr int parts = 24, bits = 26;
+  double before = 0.5 * touch.gap_curvature, here = h(reach / parts);
+  for (int k = 1; k < parts; ++k) {
+    const double after = h(reach * (k + 1) / parts);
+    if (here < before && here <= after) {
+      const double from = std::max(k - 1.0, 0.1) / parts, to = (k + 1.0) / parts;
+      const auto [d, least] = boost::math::tools::brent_find_minima(h, reach * from, reach * to, bits);
+      return Least{least * d * d, piece.s(node) + way * d};
+    }
+    before = here, here = after;
+  }
+  return std::nullopt;
+}
+
 /// Least local minimum of the gap to an obstacle inside a free arc. Next to a contact the gap is flat and its samples are
 /// rounding; a minimum must stand out by more than that.
 ContactEvent graze(const Profile& profile, int obstacle, int link, bool starts_at_mid) {
@@ -73,6 +101,15 @@ ContactEvent graze(const Profile& profile, int obstacle, int link, bool starts_a
     if (piece.stride > 1 && least->value < near * profile.unit_length)
       least = on_its_way(profile, piece, surface, least->s);
     if (least && least->value < event.value) event = at(least->value, least->s);
+  }
+  for (const Contact& c : profile.contacts) {
+    constexpr double nearly_gone = 1e-3;  // of g'', over the unit of length
+    const bool ahead = c.joint == link, behind = c.joint == link + 1;
+    if (piece.stride == 1 || c.edge || c.coupling >= 0 || c.obstacle != obstacle || !(ahead || behind) ||
+        c.gap_curvature * profile.unit_length > nearly_gone)
+      continue;
+    const std::optional<Least> dip = dip_beside(profile, piece, c, ahead);
+    if (dip && dip->value < event.value) event = at(dip->value, dip->s);
   }
   return event;
 }
