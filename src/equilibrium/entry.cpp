@@ -48,6 +48,14 @@ Entry draft(const RodProblem& from, const Successor& next, const chain::Profile&
   const scene::Scene scene = from.scene_at(p);
   choose_tails(meshes, next.topology, from.rod(), loads_of(scene), next.s);
   auto problem = std::make_shared<RodProblem>(scene, from.spatial(), next.topology, meshes, from.keys());
+  // A rod that finds its own place along itself keeps doing so: held where the guess lies, it would be another.
+  RodProblem::Memory kept;
+  if (const RodProblem::Memory before_it = from.memory(); before_it.slides) {
+    kept.slides = true;
+    kept.sliding_off = before_it.sliding_off;
+    kept.sliding_reference = before_it.sliding_reference;
+  }
+  problem->remember(kept);
   const Vector guess = chain::guess_state(problem->chain(), next.topology, problem->rod(), shape, next.s);
   return {problem, guess, p};
 }

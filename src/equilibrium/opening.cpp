@@ -25,13 +25,15 @@ Borders borders(Eigen::Index size, Eigen::Index count) {
   return out;
 }
 
-/// One slack an edge stands in for its location condition, and its arclength does not move: as many unknowns as rows. Where
-/// sliding is held, the outermost contacts' mean place is given already: one of the two is left to that.
+/// One slack an edge or touch stands in for the condition of its place, and its arclength does not move: as many unknowns as
+/// rows. Where sliding is held, the outermost contacts' mean place is given already: one of the two is left to that.
 Borders hold_edges(const chain::Chain& chain, const std::vector<int>& opened) {
   std::vector<int> edges;
   for (const int link : opened)
     for (const int joint : {link, link + 1})
-      if (chain.joint(joint).kind() == contact::JointKind::edge) edges.push_back(joint);
+      if (const auto kind = chain.joint(joint).kind();
+          kind == contact::JointKind::edge || kind == contact::JointKind::touch)
+        edges.push_back(joint);
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   double shares = 0.0;

@@ -171,8 +171,11 @@ double to_the_end(RodProblem& problem, const Vector& x, const Vector& p, int lin
 void adjust_length(Entry& entry, int link) {
   const bool strand = entry.problem->topology().beside_strand(link);
   const double factor = strand ? 4.0 : 1.5;
+  const chain::Chain& chain = entry.problem->chain();
+  const auto is_touch = [&](int joint) { return chain.joint(joint).kind() == contact::JointKind::touch; };
+  const double shortest = is_touch(link) && is_touch(link + 1) ? 2.0 * least_between_touches : 0.06;
   const double entered =
-      strand ? entered_beside_strand(*entry.problem) : 0.06 * entry.problem->rod().unit_length;
+      strand ? entered_beside_strand(*entry.problem) : shortest * entry.problem->rod().unit_length;
   const double now = length_of(entry, link);
   const double change = now > factor * entered ? 1.0 / factor : now < entered ? factor : 1.0;
   if (change == 1.0) return;
