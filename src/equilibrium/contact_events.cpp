@@ -52,7 +52,8 @@ std::optional<Least> on_its_way(const Profile& profile, const Piece& piece, cons
 /// A dip of the gap beside a touch that is about to be two. With g'' at the touch nearly gone g = δ² h(δ) dips at once, to
 /// depths that the element's polynomial does not resolve: so on the rod's own way, and of h, for g has no minimum there before
 /// it has none that is positive.
-std::optional<Least> dip_beside(const Profile& profile, const Piece& piece, const Contact& touch, bool ahead) {
+std::optional<Least> dip_beside(const Profile& profile, const Piece& piece, const Contact& touch,
+                                bool ahead) {
   const Eigen::Index last = piece.s.size() - 1, node = ahead ? 0 : last;
   const obstacle::Surface& surface = profile.obstacles[touch.obstacle];
   const double way = ahead ? 1.0 : -1.0;
@@ -174,6 +175,17 @@ bool about_to_meet(const Profile& profile, const Contact& touch) {
   });
 }
 
+/// Length at which a line with hardly any force at an edge gives way: rounding of its frames, over its length, must stay below
+/// a thousandth of that force, or it moves the edge.
+double least_under(const Profile& profile, int line) {
+  constexpr double rounding = 1e-9, most = 10.0 * least_length;
+  double least = least_length;
+  for (const Contact& c : profile.contacts)
+    if (c.edge && (c.joint == line || c.joint == line + 1) && c.force > 0.0)
+      least = std::max(least, std::min(most, rounding / (c.force * profile.unit_length)));
+  return least;
+}
+
 ContactEvent length_event(const Profile& profile, const Topology& topology, int i) {
   const bool begins_at_mid = topology.half && i == 0 && !topology.mid_touch;
   const Piece& piece = profile.pieces[i];
@@ -184,10 +196,11 @@ ContactEvent length_event(const Profile& profile, const Topology& topology, int 
   const bool between_touches =
       gap && std::count_if(profile.contacts.begin(), profile.contacts.end(), is_touch) == 2;
   const double stiffest = profile.material.stiffness.maxCoeff() / profile.material.bending_stiffness;
-  const double shortest = piece.stretch == Stretch::tail ? shortest_tail * stiffest
-                          : topology.beside_strand(i)    ? least_beside_strand
-                          : between_touches              ? least_between_touches
-                                                         : least_length;
+  const double shortest = piece.stretch == Stretch::tail   ? shortest_tail * stiffest
+                          : topology.beside_strand(i)      ? least_beside_strand
+                          : between_touches                ? least_between_touches
+                          : piece.stretch == Stretch::line ? least_under(profile, i)
+                                                           : least_length;
   const double least = shortest * profile.unit_length;
   ContactEvent event{Kind::length, i, carried.value_or(length_of(piece) - least), piece.s(0)};
   event.redrawn = carried.has_value();
