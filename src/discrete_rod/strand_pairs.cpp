@@ -85,11 +85,13 @@ std::vector<StrandPair> strand_pairs(const SplineRod& rod, const SplineRod::Vect
       const Point at = rod.position(x, e, t);
       cells.near(at, candidates);
       for (const int other : candidates) {
-        if (std::abs(rod.knot(other) + 0.5 * rod.length(other) - s) < apart) continue;
+        if (other == e ||
+            std::abs(rod.knot(other) + 0.5 * rod.length(other) - s) < apart - 0.5 * rod.length(other))
+          continue;
         if ((middles[other + n] - at).norm() > reach + rod.length(other)) continue;
         const auto controls = rod.controls(x, other);
         const auto at_foot = foot(controls, at);
-        if (!at_foot) continue;
+        if (!at_foot || std::abs(rod.knot(other) + *at_foot * rod.length(other) - s) < apart) continue;
         const double distance = (controls * cubic_weights(*at_foot, 0) - at).norm();
         if (distance < reach)
           out.push_back({e, other, t, *at_foot, Quadrature::weight[q] * rod.length(e), distance});

@@ -45,15 +45,16 @@ VectorXd resampled(const SplineRod& from, const VectorXd& x, const SplineRod& to
 }
 
 /// Raises the penalties from soft, where the start is far off, to those of the mesh. False if TAO fails.
-bool stiffen(ThickEnergy& energy, double h, bool far_off, ThickMinimum& minimum) {
+bool stiffen(ThickEnergy& energy, const ThickRod& rod, double h, bool far_off, ThickMinimum& minimum) {
   const double range = 1.5 * h, bed = 4.0 / std::pow(range, 4);
-  constexpr double stretching = 1e4,
-                   softest_bed = 100.0;  // softer, and the pulls draw the rod through the cylinder
-  energy.penalties.strands =
-      0.5 / std::pow(h, 3);  // penetration O(h²), hence a length O(h) over which they push
+  constexpr double stretching = 1e4;
+  // Softer than this, and the pulls draw the rod through the cylinder.
+  const double softest = 50.0 * rod.tension;
+  // Penetration O(h²), hence a length O(h) over which strands push; slender ones must not pass through each other.
+  energy.penalties.strands = std::max(0.5 / std::pow(h, 3), 2.0 / std::pow(rod.radius, 3));
   for (double soft = far_off ? 1e-2 : 1.0; soft < 2.0; soft *= 10.0) {
-    energy.penalties.cylinder = std::max(soft * bed, std::min(bed, softest_bed));
-    energy.penalties.stretching = soft * stretching;
+    energy.penalties.cylinder = std::max(soft * bed, std::min(bed, softest));
+    energy.penalties.stretching = std::max(soft * stretching, softest);
     const int used = descend(energy, 1e-5, minimum.x);
     if (used < 0) return false;
     minimum.iterations += used;
@@ -98,11 +99,12 @@ ThickMinimum minimise(const ThickRod& rod, double h, const ThickMinimum* start) 
   minimum.h = h;
   minimum.unknowns = static_cast<int>(spline.size());
   minimum.x = start ? resampled(rod.spline(start->h), start->x, spline) : helix(rod, spline);
-  if (!stiffen(energy, h, !start, minimum) || !settle(energy, rod.radius, minimum)) return minimum;
+  if (!stiffen(energy, rod, h, !start, minimum) || !settle(energy, rod.radius, minimum)) return minimum;
   minimum.R_tot = energy.cylinder_force(minimum.x);
   minimum.self_force = energy.strand_force(minimum.x);
   minimum.energy = energy.bending(minimum.x);
-  minimum.converged = convex(energy.hessian(minimum.x));
+  // Without a touch the pulls have straightened it: penalties were overcome on the way.
+  minimum.converged = minimum.R_tot > 0.0 && convex(energy.hessian(minimum.x));
   return minimum;
 }
 

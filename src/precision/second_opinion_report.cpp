@@ -56,9 +56,14 @@ std::string to_text(const SecondOpinion& opinion) {
                     1.0 / o.radius - 1.0, o.tension, o.chain.R_tot, o.discrete.R_tot, o.R_tot_difference,
                     o.chain.self_force, o.discrete.self_force, o.self_force_difference, o.chain.seconds,
                     o.discrete.seconds);
-  return out + fmt::format("{} states; largest difference {} in R_tot, {} in the force between strands\n",
-                           opinion.states.size(), worst(opinion.states, &Opinion::R_tot_difference),
-                           worst(opinion.states, &Opinion::self_force_difference));
+  const auto agreeing = std::count_if(opinion.states.begin(), opinion.states.end(),
+                                      [](const Opinion& o) { return o.agrees(); });
+  return out + fmt::format(
+                   "{} of {} states agree to {:.0e} in R_tot and {:.0e} in the force between strands; "
+                   "largest difference {} and {}\n",
+                   agreeing, opinion.states.size(), agreed_R_tot, agreed_self_force,
+                   worst(opinion.states, &Opinion::R_tot_difference),
+                   worst(opinion.states, &Opinion::self_force_difference));
 }
 
 }  // namespace windlass::precision

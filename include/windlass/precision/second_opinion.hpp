@@ -7,6 +7,9 @@
 
 namespace windlass::precision {
 
+/// The two opinions agree where they differ by no more than this, relative.
+inline constexpr double agreed_R_tot = 3e-4, agreed_self_force = 1e-2;
+
 /// One state of a thick rod, by the chain and by the discrete rod (discrete_rod/thick_minimiser.hpp). The two share no
 /// code, and the discrete rod starts from nothing.
 struct Opinion {
@@ -25,6 +28,8 @@ struct Opinion {
     double R_tot = 0.0, self_force = 0.0;
   };
   std::vector<Mesh> meshes;  ///< coarsest first; `discrete` is their limit
+
+  bool agrees() const;
 };
 
 struct SecondOpinion {

@@ -52,7 +52,7 @@ BOOST_AUTO_TEST_CASE(a_spline_is_its_own_half_turn_image) {
 }
 
 BOOST_AUTO_TEST_CASE(gradient_and_hessian_are_those_of_the_energy) {
-  const SplineRod rod(4.0 * M_PI, 8.0, 0.35);
+  const SplineRod rod(4.0 * M_PI, 4.0 * M_PI, 0.35);
   ThickEnergy energy(rod, 2.0, 4.0 * M_PI, 0.25);
   energy.penalties.cylinder = 50.0;
   energy.penalties.strands = 40.0;
@@ -76,7 +76,7 @@ BOOST_AUTO_TEST_CASE(gradient_and_hessian_are_those_of_the_energy) {
 }
 
 BOOST_AUTO_TEST_CASE(pairs_are_perpendicular_and_none_is_missed) {
-  const SplineRod rod(4.0 * M_PI, 8.0, 0.2);
+  const SplineRod rod(4.0 * M_PI, 4.0 * M_PI, 0.2);
   const Eigen::VectorXd x = coil(rod, 1.0, 0.45, 0.004);
   constexpr double reach = 0.5, apart = 2.0;
   const auto pairs = discrete_rod::strand_pairs(rod, x, reach, apart);

@@ -39,6 +39,7 @@ BOOST_AUTO_TEST_CASE(chain_and_discrete_rod_agree_on_one_touch_and_on_two) {
   for (const precision::Opinion& o : opinion.states) {
     BOOST_TEST_MESSAGE(o.topology << ": " << o.R_tot_difference << ", " << o.self_force_difference);
     BOOST_TEST(o.chain.self_force > 0.0);
+    BOOST_TEST(o.agrees());
     BOOST_TEST(o.meshes.size() == 3u);
     BOOST_TEST(std::abs(o.R_tot_difference) < 1e-4);
     BOOST_TEST(std::abs(o.self_force_difference) < 2e-3);
@@ -79,7 +80,8 @@ BOOST_AUTO_TEST_CASE(the_table_has_a_row_a_state_and_says_the_worst) {
   BOOST_TEST(table.find("\n2,0.25,10,10.01,0.001,1,0.99,-0.01,0.5,2,tail line tail,"
                         "0.1:30:10.5:0.9 0.05:60:10.25:0.95\n") != std::string::npos);
   const std::string text = precision::to_text(opinion);
-  BOOST_TEST(text.find("1.0e-03 (T = 2, R/r = 3) in R_tot, 1.0e-02 (T = 2, R/r = 3)") != std::string::npos);
+  BOOST_TEST(text.find("1 of 2 states agree to 3e-04 in R_tot and 1e-02") != std::string::npos);
+  BOOST_TEST(text.find("1.0e-03 (T = 2, R/r = 3) and 1.0e-02 (T = 2, R/r = 3)") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
