@@ -47,7 +47,7 @@ class CellList {
   std::unordered_map<std::int64_t, std::vector<int>> cells_;
 };
 
-/// Minimum of the distance from `at` to one element; where it lies on an end it belongs to the neighbour or is none.
+/// Minimum of the distance from `at` to one element; none where that lies on an end.
 std::optional<double> foot(const SplineRod::Controls& controls, const Point& at) {
   double t = 0.5;
   for (int iteration = 0; iteration < 30; ++iteration) {

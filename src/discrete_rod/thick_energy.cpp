@@ -95,7 +95,7 @@ void ThickEnergy::add_lengths(const Vector& x, Sum& sum) const {
   }
 }
 
-/// The pull, and what holds the last control point: a free end is straight, r''(L/2) = 0, which costs nothing.
+/// The pull, and what holds the last control point: a free end is straight, at no cost.
 void ThickEnergy::add_end(const Vector& x, Sum& sum) const {
   const int last = rod_.elements() - 1;
   const SplineRod::Controls controls = rod_.controls(x, last);

@@ -50,7 +50,7 @@ bool stiffen(ThickEnergy& energy, const ThickRod& rod, double h, bool far_off, T
   constexpr double stretching = 1e4;
   // Softer than this, and the pulls draw the rod through the cylinder.
   const double softest = 50.0 * rod.tension;
-  // Penetration O(h²), hence a length O(h) over which strands push; slender ones must not pass through each other.
+  // Penetration O(h²), hence a length O(h) over which strands push; slender ones must not pass each other.
   energy.penalties.strands = std::max(0.5 / std::pow(h, 3), 2.0 / std::pow(rod.radius, 3));
   for (double soft = far_off ? 1e-2 : 1.0; soft < 2.0; soft *= 10.0) {
     energy.penalties.cylinder = std::max(soft * bed, std::min(bed, softest));
@@ -62,7 +62,7 @@ bool stiffen(ThickEnergy& energy, const ThickRod& rod, double h, bool far_off, T
   return true;
 }
 
-/// Augmented Lagrangian: lengths by multipliers, the closest approach by a shift of where strands begin to push.
+/// Augmented Lagrangian: lengths by multipliers, the closest approach by shifting where strands begin to push.
 bool settle(ThickEnergy& energy, double radius, ThickMinimum& minimum) {
   constexpr int most = 12;
   for (int k = 0; k < most; ++k) {

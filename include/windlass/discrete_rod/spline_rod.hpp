@@ -17,8 +17,9 @@ Weights cubic_weights(double t, int order);
 ///
 ///     r(e + t) = Σ_k w_k(t) c_{e−1+k},   element e from −N to N − 1, t in [0, 1].
 ///
-/// Control points c_j with j < 0 are the images of c_{−j}; c_0 = (0, y, 0). Unknowns: y_0, then c_1 .. c_{N+1}.
-/// Elements have rest lengths h near the coil and longer ones along the tails, graded by one function of s for all h.
+/// Control points c_j with j < 0 are the images of c_{−j}; c_0 = (0, y, 0). Unknowns: y_0, then
+/// c_1 .. c_{N+1}. Elements have rest lengths h near the coil and longer ones along the tails, graded by one
+/// function of s for all h.
 class SplineRod {
  public:
   using Vector = Eigen::VectorXd;
@@ -34,7 +35,7 @@ class SplineRod {
   double length(int element) const { return lengths_[element < 0 ? -element - 1 : element]; }
   double knot(int j) const { return j < 0 ? -knots_[-j] : knots_[j]; }  ///< arclength at rest [ρ]
 
-  /// Where coordinate `c` of control point j stands among the unknowns (−1: held at zero) and with which sign.
+  /// Where coordinate `c` of control point j stands among the unknowns (−1: held at zero), and its sign.
   struct Place {
     Eigen::Index index;
     double sign;

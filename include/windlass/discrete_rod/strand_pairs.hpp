@@ -20,8 +20,9 @@ struct Quadrature {
   static const std::array<double, points> place, weight;
 };
 
-/// All pairs closer than `reach` whose first place is a Gauss point of the half s >= 0; the second lies anywhere on the
-/// rod, more than `apart` of arclength away. Candidates come from a list of cells, so that work grows with the length.
+/// All pairs closer than `reach` whose first place is a Gauss point of the half s >= 0; the second lies
+/// anywhere on the rod, more than `apart` of arclength away. Candidates come from a list of cells, so that
+/// work grows with the length.
 std::vector<StrandPair> strand_pairs(const SplineRod& rod, const SplineRod::Vector& x, double reach,
                                      double apart);
 

@@ -16,14 +16,15 @@ struct ThickPenalties {
   std::vector<double> tension;  ///< multipliers of the elements' lengths [EI/ρ²]
 };
 
-/// Energy of half a thick rod round the cylinder, as value, gradient, Hessian (augmented Lagrangian of the lengths):
+/// Energy of half a thick rod round the cylinder, as value, gradient, Hessian; lengths by an
+/// augmented Lagrangian:
 ///
 ///     E = ∫ ½ |r'×r''|²/|r'|⁵ du + Σ_e [N_e (l_e − h_e) + ½ EA (l_e − h_e)²/h_e] − T·r(L/2)
 ///         + ∫ ½ κ_c max(0, 1 − ϱ)² ds + ½ ∫ ½ κ_s max(0, 2r − d(s))² ds,
 ///
-/// ϱ the distance to the axis, d(s) that from r(s) to another strand (each of two strands is seen from the other: hence
-/// ½). An isotropic, naturally straight rod whose ends are free of moment carries no twist, so that this is all of it.
-/// Contact is a density along smooth curves: it knows no nodes, and does not lock.
+/// ϱ the distance to the axis, d(s) that from r(s) to another strand (each of two strands is seen from the
+/// other: hence ½). An isotropic, naturally straight rod whose ends are free of moment carries no twist, so
+/// that this is all of it. Contact is a density along smooth curves: it knows no nodes, and does not lock.
 class ThickEnergy {
  public:
   using Vector = Eigen::VectorXd;

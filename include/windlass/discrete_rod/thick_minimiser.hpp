@@ -30,11 +30,12 @@ struct ThickMinimum {
   SplineRod::Vector x;
 };
 
-/// Minimises `ThickEnergy` over the curves that are their own half-turn image, by TAO: Newton in a trust region
-/// (TAONTR), whose conjugate gradients are preconditioned by the factors of the Hessian, shifted where it is not
-/// positive definite. From soft to stiff, then the multipliers of lengths and of the closest approach: elements keep
-/// their lengths and strands their distance exactly. What is left is O(h³) of the cylinder's bed, whose stiffness κ
-/// follows the mesh, (4 EI/κ)^¼ = 3/2 h, and O(h²) of the length over which strands push.
+/// Minimises `ThickEnergy` over the curves that are their own half-turn image, by TAO: Newton in a trust
+/// region (TAONTR), whose conjugate gradients are preconditioned by the factors of the Hessian, shifted where
+/// it is not positive definite. From soft to stiff, then the multipliers of lengths and of the closest
+/// approach: elements keep their lengths and strands their distance exactly. What is left is O(h³) of the
+/// cylinder's bed, whose stiffness κ follows the mesh, (4 EI/κ)^¼ = 3/2 h, and O(h²) of the length over which
+/// strands push.
 ///
 /// @param start  a minimum on another mesh; none: a helix laid on the closed form of the thin flat coil
 /// @throws std::invalid_argument for rods or h out of bounds; petsc::Error if PETSc fails
@@ -51,8 +52,8 @@ struct ThickLimit {
 /// The value at h = 0 of v(h) = v + a h^order, by least squares. Two values at least.
 double extrapolated(const std::vector<double>& h, const std::vector<double>& values, int order);
 
-/// R_tot extrapolated with order 3, the force between strands with order 2, from the three finest of `meshes`; the
-/// coarsest starts from nothing, each other from the one before.
+/// R_tot extrapolated with order 3, the force between strands with order 2, from the three finest of
+/// `meshes`; the coarsest starts from nothing, each other from the one before.
 ThickLimit minimise(const ThickRod& rod, const std::vector<double>& meshes);
 
 }  // namespace windlass::discrete_rod

@@ -10,8 +10,8 @@ namespace windlass::precision {
 /// The two opinions agree where they differ by no more than this, relative.
 inline constexpr double agreed_R_tot = 3e-4, agreed_self_force = 1e-2;
 
-/// One state of a thick rod, by the chain and by the discrete rod (discrete_rod/thick_minimiser.hpp). The two share no
-/// code, and the discrete rod starts from nothing.
+/// One state of a thick rod, by the chain and by the discrete rod (discrete_rod/thick_minimiser.hpp). The two
+/// share no code, and the discrete rod starts from nothing.
 struct Opinion {
   double tension = 0.0, radius = 0.0;  ///< T [EI/ρ²], r [ρ]
   std::string topology;                ///< what the chain says touches
@@ -20,7 +20,7 @@ struct Opinion {
     double seconds = 0.0;                  ///< of the processor
   };
   Value chain, discrete;
-  /// Of the discrete rod from the chain, relative; of the force between strands relative to R_tot where there is none.
+  /// Of the discrete rod from the chain, relative (to R_tot where there is no force between strands).
   double R_tot_difference = 0.0, self_force_difference = 0.0;
   struct Mesh {
     double h = 0.0;  ///< length of elements near the coil [ρ]
@@ -44,11 +44,11 @@ struct OpinionStates {
   bool empty() const { return tensions.empty() && radii.empty(); }
 };
 
-/// R/r = 1, 2.5, 5 and T = 1 .. 12: strands apart, touching, touching twice, on the cylinder. Two turns and more to T = 4:
-/// strands that lie on each other along lines are not modelled by the chain.
+/// R/r = 1, 2.5, 5 and T = 1 .. 12: strands apart, touching, touching twice, on the cylinder. Two turns and
+/// more to T = 4: strands that lie on each other along lines are not modelled by the chain.
 OpinionStates default_states(const scene::Scene& scene);
 
-/// Is the scene one that the discrete rod can do: a thick, isotropic, naturally straight rod, its ends free of moment?
+/// Can the discrete rod do the scene? A thick, isotropic, naturally straight rod, its ends free of moment.
 bool has_second_opinion(const scene::Scene& scene);
 
 /// Where one of the two lists of states is empty the scene's own value stands for it.
