@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "thick_descent.hpp"
 
@@ -123,7 +124,9 @@ ThickLimit minimise(const ThickRod& rod, const std::vector<double>& meshes) {
   if (meshes.size() < 3) throw std::invalid_argument("thick rod: three meshes at least");
   ThickLimit limit;
   for (const double h : meshes) {
-    limit.meshes.push_back(minimise(rod, h, limit.meshes.empty() ? nullptr : &limit.meshes.back()));
+    ThickMinimum minimum = minimise(rod, h, limit.meshes.empty() ? nullptr : &limit.meshes.back());
+    if (!minimum.converged && !limit.meshes.empty()) minimum = minimise(rod, h);  // softly from nothing
+    limit.meshes.push_back(std::move(minimum));
     if (!limit.meshes.back().converged) return limit;
   }
   std::vector<double> h, R_tot, self_force;

@@ -53,7 +53,8 @@ struct ThickLimit {
 double extrapolated(const std::vector<double>& h, const std::vector<double>& values, int order);
 
 /// R_tot extrapolated with order 3, the force between strands with order 2, from the three finest of
-/// `meshes`; the coarsest starts from nothing, each other from the one before.
+/// `meshes`; the coarsest starts from nothing, each other from the one before, or from nothing where that
+/// fails.
 ThickLimit minimise(const ThickRod& rod, const std::vector<double>& meshes);
 
 }  // namespace windlass::discrete_rod
