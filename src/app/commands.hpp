@@ -104,8 +104,9 @@ struct SweepRequest {
 struct PrecisionRequest {
   CommonOptions common;
   scene::Scene scene;
-  int repeats = 5;     ///< solutions a measurement; the median counts
-  bool quick = false;  ///< short ladders
+  int repeats = 5;                      ///< solutions a measurement; the median counts
+  bool quick = false;                   ///< short ladders
+  std::vector<double> tensions, radii;  ///< states of the second opinion; empty: its own
 };
 
 // Bodies: one function a command, in run_NAME.cpp. They return an exit status; bad input is thrown.

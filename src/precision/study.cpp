@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
 #include "arcs.hpp"
+#include "processor_clock.hpp"
 #include "windlass/discrete_rod/minimiser.hpp"
 #include "windlass/equilibrium/discovery.hpp"
 #include "windlass/rod/capstan.hpp"
@@ -15,12 +15,6 @@
 namespace windlass::precision {
 
 namespace {
-
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// Of the value itself where the exact one is zero: phi_star of a single touch.
 double relative(double value, double exact) {

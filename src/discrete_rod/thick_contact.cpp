@@ -1,0 +1,91 @@
+#include <cmath>
+
+#include "thick_sum.hpp"
+
+namespace windlass::discrete_rod {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+void ThickEnergy::add_cylinder(const Vector& x, Sum& sum) const {
+  for (int e = 0; e < rod_.elements(); ++e) {
+    const SplineRod::Controls controls = rod_.controls(x, e);
+    for (int q = 0; q < Quadrature::points; ++q) {
+      const double t = Quadrature::place[q],
+                   weight = Quadrature::weight[q] * rod_.length(e) * penalties.cylinder;
+      Vector3d out = controls * cubic_weights(t, 0);
+      out(2) = 0.0;
+      const double distance = out.norm(), depth = 1.0 - distance;
+      if (depth <= 0.0) continue;
+      sum.value += 0.5 * weight * depth * depth;
+      if (!sum.derivatives) continue;
+      out /= distance;
+      Matrix3d round = -out * out.transpose();
+      round(0, 0) += 1.0, round(1, 1) += 1.0;
+      const Shape place = shape(t, 0);
+      const Eigen::Matrix<double, 12, 1> gradient = -weight * depth * place.transpose() * out;
+      const Eigen::Matrix<double, 12, 12> hessian =
+          weight * place.transpose() * (out * out.transpose() - depth / distance * round) * place;
+      Local({e}).add(gradient, hessian, sum);
+    }
+  }
+}
+
+std::vector<StrandPair> ThickEnergy::touching(const Vector& x) const {
+  return strand_pairs(rod_, x, 2.0 * radius_ + penalties.strand_shift, M_PI * radius_);
+}
+
+void ThickEnergy::add_strands(const Vector& x, Sum& sum) const {
+  if (penalties.strands <= 0.0) return;
+  using Shape24 = Eigen::Matrix<double, 3, 24>;
+  using Vector24 = Eigen::Matrix<double, 24, 1>;
+  for (const StrandPair& pair : touching(x)) {
+    const double d = pair.distance, depth = 2.0 * radius_ + penalties.strand_shift - d,
+                 weight = 0.5 * pair.weight * penalties.strands;
+    sum.value += 0.5 * weight * depth * depth;
+    if (!sum.derivatives) continue;
+    const SplineRod::Controls there = rod_.controls(x, pair.other);
+    const Vector3d gap = rod_.position(x, pair.element, pair.t) - there * cubic_weights(pair.other_t, 0),
+                   slope = there * cubic_weights(pair.other_t, 1),
+                   bend = there * cubic_weights(pair.other_t, 2);
+    Shape24 apart, turn = Shape24::Zero();  // of the gap, and of its derivative along the other strand
+    apart << shape(pair.t, 0), -shape(pair.other_t, 0);
+    turn.rightCols<12>() = -shape(pair.other_t, 1);
+    // f = ½ d² has its minimum over the other's place: f_cc − f_cσ f_σc/f_σσ is its second derivative.
+    const Vector24 mixed = turn.transpose() * gap - apart.transpose() * slope;
+    const Vector24 d_slope = apart.transpose() * gap / d;
+    const Eigen::Matrix<double, 24, 24> d_curvature =
+        (apart.transpose() * apart - mixed * mixed.transpose() / (slope.squaredNorm() - gap.dot(bend)) -
+         d_slope * d_slope.transpose()) /
+        d;
+    const Eigen::Matrix<double, 24, 24> hessian =
+        weight * (d_slope * d_slope.transpose() - depth * d_curvature);
+    Local({pair.element, pair.other}).add(Vector24(-weight * depth * d_slope), hessian, sum);
+  }
+}
+
+double ThickEnergy::cylinder_force(const Vector& x) const {
+  double force = 0.0;
+  for (int e = 0; e < rod_.elements(); ++e)
+    for (int q = 0; q < Quadrature::points; ++q) {
+      const double distance = rod_.position(x, e, Quadrature::place[q]).head<2>().norm();
+      force +=
+          2.0 * Quadrature::weight[q] * rod_.length(e) * penalties.cylinder * std::max(0.0, 1.0 - distance);
+    }
+  return force;
+}
+
+double ThickEnergy::strand_force(const Vector& x) const {
+  double force = 0.0;  // each half sees every touch once: half of the rod, but from both strands
+  for (const StrandPair& pair : touching(x))
+    force += pair.weight * penalties.strands * (2.0 * radius_ + penalties.strand_shift - pair.distance);
+  return force;
+}
+
+double ThickEnergy::strand_distance(const Vector& x) const {
+  double least = 2.0 * radius_ + penalties.strand_shift;
+  for (const StrandPair& pair : touching(x)) least = std::min(least, pair.distance);
+  return least;
+}
+
+}  // namespace windlass::discrete_rod

@@ -1,0 +1,144 @@
+#include "windlass/discrete_rod/thick_minimiser.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "thick_descent.hpp"
+
+namespace windlass::discrete_rod {
+
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double fine_beyond = 1.5;  // fine elements reach so far beyond half the angle [ρ]
+
+/// Flat coil of the thin rod with infinite tails, raised into a helix whose strands clear each other.
+VectorXd helix(const ThickRod& rod, const SplineRod& spline) {
+  const double tension = std::max(rod.tension, 0.6);  // below 1/2 there is no flat coil that lies on
+  const double root = std::sqrt(tension), half = 0.5 * rod.angle, beta = std::acos(1.0 - 0.5 / tension);
+  const double end = std::max(half - beta, 0.0);
+  const auto angle = [&](double s) {
+    return s < end ? s : half - 4.0 * std::atan(std::tan(0.25 * (half - end)) * std::exp(root * (end - s)));
+  };
+  const double pitch = 2.1 * rod.radius, level = half + 0.5;  // a turn; where the tails level off
+  std::vector<SplineRod::Point> points = {{0.0, -1.0, 0.0}};
+  for (int k = 1; k <= spline.elements(); ++k) {
+    const double s = spline.knot(k), h = s - spline.knot(k - 1), theta = angle(s - 0.5 * h);
+    points.push_back(points.back() + h * SplineRod::Point(std::cos(theta), std::sin(theta), 0.0));
+    const double rising = s < level ? s : level + 1.0 - std::exp(level - s);
+    points.back()(2) = pitch * rising / (2.0 * M_PI);
+  }
+  return spline.through(points);
+}
+
+VectorXd resampled(const SplineRod& from, const VectorXd& x, const SplineRod& to) {
+  std::vector<SplineRod::Point> points;
+  int e = 0;
+  for (int k = 0; k <= to.elements(); ++k) {
+    const double s = to.knot(k);
+    while (e + 1 < from.elements() && from.knot(e + 1) < s) ++e;
+    points.push_back(from.position(x, e, (s - from.knot(e)) / from.length(e)));
+  }
+  return to.through(points);
+}
+
+/// Raises the penalties from soft, where the start is far off, to those of the mesh. False if TAO fails.
+bool stiffen(ThickEnergy& energy, const ThickRod& rod, double h, bool far_off, ThickMinimum& minimum) {
+  const double range = 1.5 * h, bed = 4.0 / std::pow(range, 4);
+  constexpr double stretching = 1e4;
+  // Softer than this, and the pulls draw the rod through the cylinder.
+  const double softest = 50.0 * rod.tension;
+  // Penetration O(h²), hence a length O(h) over which strands push; slender ones must not pass each other.
+  energy.penalties.strands = std::max(0.5 / std::pow(h, 3), 2.0 / std::pow(rod.radius, 3));
+  for (double soft = far_off ? 1e-2 : 1.0; soft < 2.0; soft *= 10.0) {
+    energy.penalties.cylinder = std::max(soft * bed, std::min(bed, softest));
+    energy.penalties.stretching = std::max(soft * stretching, softest);
+    const int used = descend(energy, 1e-5, minimum.x);
+    if (used < 0) return false;
+    minimum.iterations += used;
+  }
+  return true;
+}
+
+/// Augmented Lagrangian: lengths by multipliers, the closest approach by shifting where strands begin to push.
+bool settle(ThickEnergy& energy, double radius, ThickMinimum& minimum) {
+  constexpr int most = 12;
+  for (int k = 0; k < most; ++k) {
+    const bool touches = energy.strand_force(minimum.x) > 0.0;
+    const double depth = touches ? 2.0 * radius - energy.strand_distance(minimum.x) : 0.0;
+    if (k > 0 && energy.stretch(minimum.x) < 1e-9 && std::abs(depth) < 1e-8) return true;
+    energy.raise_tension(minimum.x);
+    energy.penalties.strand_shift = std::max(0.0, energy.penalties.strand_shift + depth);
+    const int used = descend(energy, 1e-8, minimum.x);
+    if (used < 0) return false;
+    minimum.iterations += used;
+  }
+  return false;
+}
+
+}  // namespace
+
+void ThickRod::validate() const {
+  if (!(tension > 0.0)) throw std::invalid_argument("thick rod: tension must be > 0");
+  if (!(angle > 0.0)) throw std::invalid_argument("thick rod: angle must be > 0");
+  if (!(radius > 0.0 && radius < 1.0)) throw std::invalid_argument("thick rod: radius must be in (0, 1)");
+  if (!(half_length > 0.5 * angle + fine_beyond))
+    throw std::invalid_argument("thick rod: half_length must exceed half the capstan angle by 1.5");
+}
+
+SplineRod ThickRod::spline(double h) const { return {half_length, 0.5 * angle + fine_beyond, h}; }
+
+ThickMinimum minimise(const ThickRod& rod, double h, const ThickMinimum* start) {
+  rod.validate();
+  if (!(h > 0.0 && h <= 0.2)) throw std::invalid_argument("thick rod: h must be in (0, 0.2]");
+  const SplineRod spline = rod.spline(h);
+  ThickEnergy energy(spline, rod.tension, rod.angle, rod.radius);
+  ThickMinimum minimum;
+  minimum.h = h;
+  minimum.unknowns = static_cast<int>(spline.size());
+  minimum.x = start ? resampled(rod.spline(start->h), start->x, spline) : helix(rod, spline);
+  if (!stiffen(energy, rod, h, !start, minimum) || !settle(energy, rod.radius, minimum)) return minimum;
+  minimum.R_tot = energy.cylinder_force(minimum.x);
+  minimum.self_force = energy.strand_force(minimum.x);
+  minimum.energy = energy.bending(minimum.x);
+  // Without a touch the pulls have straightened it: penalties were overcome on the way.
+  minimum.converged = minimum.R_tot > 0.0 && convex(energy.hessian(minimum.x));
+  return minimum;
+}
+
+double extrapolated(const std::vector<double>& h, const std::vector<double>& values, int order) {
+  double mean = 0.0, mean_value = 0.0, square = 0.0, product = 0.0;
+  const double share = 1.0 / static_cast<double>(h.size());
+  for (std::size_t k = 0; k < h.size(); ++k) {
+    const double power = std::pow(h[k], order);
+    mean += share * power, mean_value += share * values[k];
+    square += share * power * power, product += share * power * values[k];
+  }
+  return mean_value - mean * (product - mean * mean_value) / (square - mean * mean);
+}
+
+ThickLimit minimise(const ThickRod& rod, const std::vector<double>& meshes) {
+  if (meshes.size() < 3) throw std::invalid_argument("thick rod: three meshes at least");
+  ThickLimit limit;
+  for (const double h : meshes) {
+    ThickMinimum minimum = minimise(rod, h, limit.meshes.empty() ? nullptr : &limit.meshes.back());
+    if (!minimum.converged && !limit.meshes.empty()) minimum = minimise(rod, h);  // softly from nothing
+    limit.meshes.push_back(std::move(minimum));
+    if (!limit.meshes.back().converged) return limit;
+  }
+  std::vector<double> h, R_tot, self_force;
+  for (auto mesh = limit.meshes.end() - 3; mesh != limit.meshes.end(); ++mesh) {
+    h.push_back(mesh->h);
+    R_tot.push_back(mesh->R_tot);
+    self_force.push_back(mesh->self_force);
+  }
+  limit.R_tot = extrapolated(h, R_tot, 3);
+  limit.self_force = extrapolated(h, self_force, 2);
+  limit.converged = true;
+  return limit;
+}
+
+}  // namespace windlass::discrete_rod
