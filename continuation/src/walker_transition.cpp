@@ -27,7 +27,9 @@ void Walker::adapt() {
     segment.add_events(*sample);
     const double last_ds = state_.last_ds;
     std::vector<EventFunction> previous_events = std::move(state_.previous_events);
+    EventSigns signs = state_.signs;
     settle(segment, *sample);
+    state_.signs = std::move(signs);  // what only the new mesh makes negative is still to be passed
     state_.last_ds = last_ds;  // the same point: the rates of events still run from the one before
     state_.previous_events = std::move(previous_events);
     state_.mesh_changed = true;
@@ -189,13 +191,14 @@ bool Walker::enter(const Transition& transition, int direction, const std::strin
           continue;
         }
         segment.add_events(*sample);
-        // Signs are read off the first point beyond: here the function that changed is zero up to roundoff. Those that may
-        // have either are known from here on.
+        // Signs are read off the first point beyond: here the function that changed, and its mirror image, are zero up to
+        // roundoff. Those that are not, or may have either sign, are known from here on.
         state_.signs.clear();
         settle(segment, *sample);
+        const double zero = 1e4 * options_.event_zero;
         std::erase_if(state_.signs, [&](const auto& sign) {
           return std::none_of(state_.events.begin(), state_.events.end(), [&](const EventFunction& event) {
-            return event.passes && event.name == sign.first;
+            return (event.passes || event.value > zero) && event.name == sign.first;
           });
         });
         state_.mesh_changed = true;

@@ -136,8 +136,10 @@ double RodProblem::excess(const Vector& x, const Vector& p) {
 double RodProblem::nodal_goal() const {
   // A strut is as long as its unit, so its strains, and with them the moments, are some ten times its rotations.
   const double share = rod_.strut ? 0.03 : 0.3;
+  // Moments are strains times stiffnesses, the bending stiffness being 1.
+  const double stiffest = std::max(1.0, rod_.stiffness.maxCoeff() / rod_.bending_stiffness);
   // The tolerance is the target's: frames beside short arcs round to no better than certificates ask.
-  return share * certificate_level;
+  return share * certificate_level / stiffest;
 }
 
 Vector RodProblem::refine(Vector x, const Vector& p, int rounds) {
