@@ -73,7 +73,8 @@ bool StoppingRule::last(double length, double residual, double state_size, bool 
   const bool falls = taken_ > 0 && residual <= still_falls * previous_residual_;
   // Some sums round to more; they are known by not falling any more.
   constexpr double larger_sums = 10.0;
-  const double all_rounding = rounded_residual * allowed * (taken_ > 0 && !falls ? larger_sums : 1.0);
+  const double all_rounding =
+      rounded_residual * allowed * (guess_ == Guess::near && taken_ > 0 && !falls ? larger_sums : 1.0);
   const bool exhausted = fresh && residual <= all_rounding && length <= visible;
   bool stagnant = false;
   // A far guess may be improved by corrections of any size at first.

@@ -25,15 +25,22 @@ Borders borders(Eigen::Index size, Eigen::Index count) {
   return out;
 }
 
+/// Does a joint lie on an obstacle alone, with a place that a condition of its own finds?
+bool finds_place(const chain::Chain& chain, int joint) {
+  const contact::JointKind kind = chain.joint(joint).kind();
+  const bool coupled = std::any_of(
+      chain.couplings().begin(), chain.couplings().end(),
+      [&](const chain::Coupling& coupling) { return coupling.first == joint || coupling.second == joint; });
+  return kind == contact::JointKind::edge || (kind == contact::JointKind::touch && !coupled);
+}
+
 /// One slack an edge or touch stands in for the condition of its place, and its arclength does not move: as many unknowns as
 /// rows. Where sliding is held, the outermost contacts' mean place is given already: one of the two is left to that.
 Borders hold_edges(const chain::Chain& chain, const std::vector<int>& opened) {
   std::vector<int> edges;
   for (const int link : opened)
     for (const int joint : {link, link + 1})
-      if (const auto kind = chain.joint(joint).kind();
-          kind == contact::JointKind::edge || kind == contact::JointKind::touch)
-        edges.push_back(joint);
+      if (finds_place(chain, joint)) edges.push_back(joint);
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   double shares = 0.0;
@@ -128,7 +135,8 @@ std::vector<int> short_gaps(RodProblem& problem, const Vector& x, const Vector& 
   const contact::Loads at = problem.loads(p);
   std::vector<int> links;
   for (int i = 0; i < problem.chain().link_count(); ++i)
-    if (problem.topology().stretches[i] == chain::Stretch::gap &&
+    if (problem.topology().stretches[i] == chain::Stretch::gap && finds_place(problem.chain(), i) &&
+        finds_place(problem.chain(), i + 1) &&
         problem.chain().length(x, at, i) < most * problem.rod().unit_length)
       links.push_back(i);
   return links;
