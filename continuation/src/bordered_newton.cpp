@@ -71,11 +71,11 @@ bool StoppingRule::last(double length, double residual, double state_size, bool 
   constexpr double rounded_residual = 1e-3, visible = 1e-6;
   constexpr double still_falls = 0.3;
   const bool falls = taken_ > 0 && residual <= still_falls * previous_residual_;
-  // Some sums round to more; they are known by not falling any more.
-  constexpr double larger_sums = 10.0;
-  const double all_rounding =
-      rounded_residual * allowed * (guess_ == Guess::near && taken_ > 0 && !falls ? larger_sums : 1.0);
-  const bool exhausted = fresh && residual <= all_rounding && length <= visible;
+  // Some sums round to more; they are known by not falling any more while corrections are hardly visible.
+  constexpr double larger_sums = 1e-2, hardly_visible = 1e-8;
+  const bool stuck = taken_ > 0 && !falls && residual <= larger_sums * allowed && length <= hardly_visible;
+  const bool exhausted = fresh && ((residual <= rounded_residual * allowed && length <= visible) ||
+                                   (guess_ == Guess::near && stuck));
   bool stagnant = false;
   // A far guess may be improved by corrections of any size at first.
   constexpr int at_first = 5;
