@@ -91,10 +91,12 @@ ordered_json rod_json(const Solution& solution) {
       {"topology", solution.topology}, {"model", solution.model}, {"arcs", arcs_json(curve, solution)}};
   json["forces"] = ordered_json::array();
   for (const PointForce& force : point_forces(solution)) {
-    json["forces"].push_back({{"s", short_number(force.s)},
-                              {"r", triple(force.r)},
-                              {"d", triple(force.direction)},
-                              {"f", short_number(force.size)}});
+    ordered_json entry = {{"s", short_number(force.s)},
+                          {"r", triple(force.r)},
+                          {"d", triple(force.direction)},
+                          {"f", short_number(force.size)}};
+    if (force.partner) entry["partner"] = short_number(*force.partner);
+    json["forces"].push_back(std::move(entry));
   }
   json["eigenvalues"] = ordered_json::array();
   if (solution.stability) {
@@ -145,6 +147,12 @@ std::vector<Quantity> quantities(const Run& run, const ReportOptions& options) {
       {"tilt", "tilt at the mid-point [rad]", [or_flat](const BranchRow& r) { return or_flat(r.tilt); }});
   list.push_back({"z_span", "extent in z [ρ]", [or_flat](const BranchRow& r) { return or_flat(r.z_span); }});
   list.push_back({"energy", "energy [EI/ρ]", [](const BranchRow& r) { return r.energy; }});
+  if (options.rod_radius > 0.0) {
+    list.push_back({"self_distance", "closest approach to itself [ρ]",
+                    [](const BranchRow& r) { return r.self_distance.value_or(std::nan("")); }});
+    list.push_back(
+        {"self_force", "force between strands [EI/ρ²]", [](const BranchRow& r) { return r.self_force; }});
+  }
   list.push_back({"eigenvalue_1", "lowest eigenvalue",
                   [](const BranchRow& r) { return r.eigenvalue_1.value_or(std::nan("")); }});
   list.push_back({"index", "number of negative eigenvalues",
@@ -201,6 +209,7 @@ ordered_json report_data(const Run& run, const ReportOptions& options) {
   ordered_json data;
   data["info"] = to_json(run.info);
   data["scene"] = run.scene_toml;
+  data["radius"] = options.rod_radius;
   for (const Quantity& quantity : list)
     data["quantities"].push_back({{"name", quantity.name}, {"title", quantity.title}});
   if (run.info.has_cylinder) {
