@@ -4,6 +4,7 @@
 #include <map>
 #include <numbers>
 
+#include "sheet.hpp"
 #include "windlass/output/plot.hpp"
 #include "windlass/output/report.hpp"
 #include "windlass/output/rod_curve.hpp"
@@ -110,13 +111,13 @@ ordered_json rod_json(const Solution& solution) {
 }
 
 /// Flat obstacles: corners of a rectangle each, beside the whole length of the rod.
-ordered_json sheets_json(const Solution& solution, const obstacle::Set& obstacles) {
+ordered_json sheets_json(const Solution& solution, const obstacle::Set& obstacles, double rod_radius) {
   const double half = 0.5 * (solution.arcs.back().s.tail<1>()[0] - solution.arcs.front().s[0]);
   const Eigen::AlignedBox3d box(Vector3d(-half, 0.0, 0.0), Vector3d(half, 0.0, 0.0));
   ordered_json sheets = ordered_json::array();
   for (int o = 0; o < obstacles.size(); ++o) {
     ordered_json corners = ordered_json::array();
-    for (const Vector3d& corner : obstacles[o].sheet(box)) corners.push_back(triple(corner));
+    for (const Vector3d& corner : sheet_of(obstacles[o], box, rod_radius)) corners.push_back(triple(corner));
     if (!corners.empty()) sheets.push_back(std::move(corners));
   }
   return sheets;
@@ -229,7 +230,7 @@ ordered_json report_data(const Run& run, const ReportOptions& options) {
     if (options.complete) options.complete(i, solution);
     data["rods"][point_name(key.branch, key.point, key.label)] = rod_json(solution);
     if (data["sheets"].empty() && !solution.has_cylinder)
-      data["sheets"] = sheets_json(solution, options.obstacles);
+      data["sheets"] = sheets_json(solution, options.obstacles, options.rod_radius);
   }
   return data;
 }

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "pressure_profile.hpp"
+#include "sheet.hpp"
 #include "windlass/output/branches_csv.hpp"
 
 namespace windlass::output {
@@ -52,11 +53,12 @@ std::string force_objects(const equilibrium::Solution& solution, double rod_radi
 }
 
 /// Obstacles as gnuplot objects of the view of x and coordinate `up`.
-std::string surroundings(const obstacle::Set& obstacles, const Eigen::AlignedBox3d& box, int up) {
+std::string surroundings(const obstacle::Set& obstacles, double rod_radius, const Eigen::AlignedBox3d& box,
+                         int up) {
   std::string text = "  unset arrow\n";
   const auto place = [&](const Vector3d& r) { return format_number(r.x()) + "," + format_number(r[up]); };
   for (int o = 0; o < obstacles.size(); ++o) {
-    const std::vector<Vector3d> sheet = obstacles[o].sheet(box);
+    const std::vector<Vector3d> sheet = sheet_of(obstacles[o], box, rod_radius);
     if (sheet.empty()) continue;
     const Vector3d normal = obstacles[o].normal(sheet[0]);
     constexpr double from_the_side = 1e-9;
@@ -76,7 +78,7 @@ Picture strut_picture(const equilibrium::Solution& solution, const RodCurve& cur
   for (const Vector3d& r : curve.r) box.extend(r);
   const Eigen::AlignedBox3d rod = box;
   for (int o = 0; o < obstacles.size(); ++o)  // those near the rod are in the picture
-    for (const Vector3d& corner : obstacles[o].sheet(rod))
+    for (const Vector3d& corner : sheet_of(obstacles[o], rod, stroke.radius))
       if (std::abs(corner.y()) < 0.5 * rod.sizes().x())
         box.extend(Vector3d(rod.center().x(), corner.y(), 0.0));
   const bool planar = solution.z_span < 1e-6, tall = is_tall(solution, box);
@@ -98,8 +100,8 @@ Picture strut_picture(const equilibrium::Solution& solution, const RodCurve& cur
   text +=
       tube_fill + range("xrange", box.min().x() - margin, box.max().x() + margin) + "  set xlabel 'x  [ρ]'\n";
   for (int k = 1; k <= (planar ? 1 : 2); ++k) {
-    text +=
-        surroundings(obstacles, rod, k) + force_objects(solution, stroke.radius, rod.sizes().maxCoeff(), k);
+    text += surroundings(obstacles, stroke.radius, rod, k) +
+            force_objects(solution, stroke.radius, rod.sizes().maxCoeff(), k);
     text += range("yrange", box.center()[k] - half, box.center()[k] + half) + "  set ylabel '" +
             (k == 1 ? "y" : "z") + "  [ρ]'\n  plot '" + stem;
     text += stroke.radius > 0.0

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "sheet.hpp"
 #include "windlass/obstacle/scene_obstacles.hpp"
 #include "windlass/output/atomic_file.hpp"
 #include "windlass/output/branches_csv.hpp"
@@ -160,11 +161,11 @@ std::string vtk_cylinder(const scene::Scene& scene, double low, double high) {
                        points(places) + cells("Polys", quads, 4));
 }
 
-std::string vtk_walls(const obstacle::Set& obstacles, const Eigen::AlignedBox3d& box) {
+std::string vtk_walls(const obstacle::Set& obstacles, const Eigen::AlignedBox3d& box, double rod_radius) {
   std::vector<Vector3d> places, normals;
   std::vector<int> quads;
   for (int o = 0; o < obstacles.size(); ++o)
-    for (const Vector3d& corner : obstacles[o].sheet(box)) {
+    for (const Vector3d& corner : sheet_of(obstacles[o], box, rod_radius)) {
       quads.push_back(static_cast<int>(places.size()));
       places.push_back(corner), normals.push_back(obstacles[o].normal(corner));
     }
@@ -219,7 +220,8 @@ fs::path export_vtk(const Run& run, const scene::Scene& scene, const std::vector
   if (scene.has_cylinder)
     replace_file(folder / "cylinder.vtp", std::string_view(vtk_cylinder(scene, low, high)));
   else if (!scene.walls.empty())
-    replace_file(folder / "walls.vtp", std::string_view(vtk_walls(obstacle::obstacles_of(scene), box)));
+    replace_file(folder / "walls.vtp",
+                 std::string_view(vtk_walls(obstacle::obstacles_of(scene), box, scene.rod_radius)));
   const fs::path collection = folder / (stem + ".pvd");
   replace_file(collection,
                std::string_view("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "

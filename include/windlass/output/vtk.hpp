@@ -31,8 +31,9 @@ VtkRod vtk_rod(const equilibrium::Solution& solution, const scene::Scene& scene)
 /// radius.
 std::string vtk_cylinder(const scene::Scene& scene, double low, double high);
 
-/// A rectangle for each plane wall, as large as the box (of a rod) asks for.
-std::string vtk_walls(const obstacle::Set& obstacles, const Eigen::AlignedBox3d& box);
+/// A rectangle for each plane wall, as large as the box (of a rod) asks for, a radius of the rod behind where its
+/// centreline is stopped.
+std::string vtk_walls(const obstacle::Set& obstacles, const Eigen::AlignedBox3d& box, double rod_radius);
 
 /// Writes rods of a run: `rod-POINT.vtp`, `forces-POINT.vtp`, `cylinder.vtp` or `walls.vtp`, and the
 /// collection that opens them all, `STEM.pvd`. Several rods follow one another in ParaView's time, which is

@@ -134,14 +134,14 @@ BOOST_AUTO_TEST_CASE(walls_are_rectangles_beside_the_rod) {
   scene.has_cylinder = false;
   scene.walls = {{{0.0, 1.0, 0.0}, 0.05}, {{0.0, -1.0, 0.0}, 0.05}};
   const Eigen::AlignedBox3d box(Eigen::Vector3d(-0.5, -0.05, 0.0), Eigen::Vector3d(0.5, 0.05, 0.0));
-  const Tree file = parse(output::vtk_walls(obstacle::obstacles_of(scene), box));
+  const Tree file = parse(output::vtk_walls(obstacle::obstacles_of(scene), box, 0.01));
   const Tree& piece = piece_of(file);
   const auto r = array(piece, "Points", "Points"), normals = array(piece, "PointData", "Normals");
   BOOST_TEST_REQUIRE(count(piece, "Polys") == 2u);
   BOOST_TEST_REQUIRE(count(piece, "Points") == 8u);
   double least = 1.0, most = -1.0;
   for (std::size_t i = 0; i < r.size(); i += 3) {
-    BOOST_TEST(std::abs(std::abs(r[i + 1]) - 0.05) < 1e-15);
+    BOOST_TEST(std::abs(std::abs(r[i + 1]) - 0.06) < 1e-15);
     BOOST_TEST(std::abs(normals[i + 1]) == 1.0);
     least = std::min(least, r[i]), most = std::max(most, r[i]);
   }
