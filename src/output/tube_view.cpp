@@ -36,14 +36,14 @@ Vector2d side_of(const Eigen::Quaterniond& q, const View& view, const Vector2d& 
 }
 
 /// @param half  width over that of the tube
-/// @param over  longer by this at either end, where the rod goes on
-/// @param beyond  the same where it ends
-std::string strip(const TubePiece& piece, double half, double over, double beyond, unsigned colour) {
+/// @param over  longer by this at either end, but no longer than the rod
+/// @param short_of  less this, at the rod's ends
+std::string strip(const TubePiece& piece, double half, double over, double short_of, unsigned colour) {
   std::string text;
   const auto corner = [&](std::size_t end, double across) {
     const Vector2d& side = piece.side[end];
     const Vector2d along = Vector2d(side.y(), -side.x()).normalized();
-    const double by = (end == 0 ? -1.0 : 1.0) * (piece.is_end[end] ? beyond : over);
+    const double by = (end == 0 ? -1.0 : 1.0) * std::min(over, piece.rest[end] - short_of);
     const Vector2d at = piece.centre[end] + by * along + across * side;
     text += data_line({at.x(), at.y(), static_cast<double>(colour)});
   };
@@ -66,7 +66,7 @@ std::vector<TubePiece> tube_pieces(const RodCurve& curve, double radius, const V
     piece.depth = view.towards.dot(piece.middle);
     piece.centre = {view.project(curve.r[i]), view.project(curve.r[i + 1])};
     piece.side = {radius * here, radius * side};
-    piece.is_end = {i == 0, i + 2 == curve.s.size()};
+    piece.rest = {curve.s[i] - curve.s.front(), curve.s.back() - curve.s[i + 1]};
     piece.colour = colour_of(i);
     pieces.push_back(piece);
   }
@@ -85,8 +85,8 @@ std::string tube_polygons(const TubePiece& piece, const Stroke& stroke) {
   const double body = 1.0 - std::min(0.35, stroke.edge / stroke.radius);
   // What is drawn later is longer, or the ends of the pieces show as lines across the rod.
   const double w = stroke.edge;
-  return strip(piece, 1.0, 0.5 * w, 0.0, dark) + strip(piece, body, 2.0 * w, -w, piece.colour) +
-         strip(piece, 0.45 * body, 3.5 * w, -w, mixed(piece.colour, light, 0.25));
+  return strip(piece, 1.0, 0.5 * w, 0.0, dark) + strip(piece, body, 2.0 * w, w, piece.colour) +
+         strip(piece, 0.45 * body, 3.5 * w, w, mixed(piece.colour, light, 0.25));
 }
 
 unsigned pressure_colour(double share) {

@@ -17,8 +17,8 @@ struct TubePiece {
   Eigen::Vector3d middle;
   double depth = 0.0;  ///< of the middle, towards the eye
   std::array<Eigen::Vector2d, 2> centre, side;
-  std::array<bool, 2> is_end = {false, false};  ///< of the rod
-  unsigned colour = 0;                          ///< 0xRRGGBB
+  std::array<double, 2> rest = {0.0, 0.0};  ///< of the rod, beyond either end of the piece [ρ]
+  unsigned colour = 0;                      ///< 0xRRGGBB
 };
 
 /// @param radius     of the tube [ρ]

@@ -53,7 +53,7 @@ BOOST_AUTO_TEST_CASE(sides_are_a_radius_from_the_centre_line_and_shared) {
       BOOST_TEST(side.norm() == 0.2, boost::test_tools::tolerance(1e-12));
       BOOST_TEST(std::abs(side.dot(piece.centre[1] - piece.centre[0])) < 1e-12);
     }
-    ends += piece.is_end[0] + piece.is_end[1];
+    for (const double rest : piece.rest) ends += rest < 1e-12 ? 1 : 0;
     // edge, body, strip: four corners each
     std::istringstream text(tube_polygons(piece, stroke_of(0.2, 6.0)));
     int corners = 0;
