@@ -9,8 +9,10 @@ void add_export(CommandLine& app, CommonOptions& common, int& status) {
       "point\n"
       "forces (for the Glyph filter: scale by `force`), and the cylinder. Lengths are in units of rho, "
       "forces of\n"
-      "EI/rho^2. A branch is a sequence in ParaView's time; rod_radius is in the field data for the Tube "
-      "filter.\n"
+      "EI/rho^2. A branch is a sequence in ParaView's time. A rod with a radius: Tube filter, Scalars "
+      "`radius`, Vary\n"
+      "Radius `By Absolute Scalar`. Forces between strands have `strand` = 1; `touched` is the place on "
+      "the surface.\n"
       "Files go into RUN/vtk unless --out says otherwise.");
   const auto request = add_run(command, common, status, run_export);
   command

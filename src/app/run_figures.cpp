@@ -59,7 +59,7 @@ int run_figures(const FiguresRequest& request) {
     progress.update("computing " + plan.name);
     const int status = compute(plan, out, request.common, study);
     if (status == interrupted) return interrupted;
-    if (status != done)
+    if (status != done && !plan.may_end)
       incomplete = true, progress.note(plan.name + ": a branch was lost; the page says where");
   }
   progress.update("drawing");

@@ -18,6 +18,7 @@ int run_report(const RunRequest& request) {
   output::ReportOptions options;
   options.units = scene.units;
   options.obstacles = obstacle::obstacles_of(scene);
+  options.rod_radius = scene.rod_radius;
   options.file = request.common.out;
   Progress progress(request.common.quiet);
   stability::SpectrumSolver solver;

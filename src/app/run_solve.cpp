@@ -76,7 +76,9 @@ void print_contacts(const Solution& solution, const Physical& physical) {
     if (joint.partner >= 0) {
       const double other = solution.joints[static_cast<std::size_t>(joint.partner)].s;
       print_quantity("  cross", joint.strand_force, physical.force(joint.strand_force),
-                     fmt::format("at s = {:.6g}, with the strand at s = {:.6g}", joint.s, other));
+                     fmt::format("at s = {:.6g}{}, with the strand at s = {:.6g}{}", joint.s,
+                                 physical.beside(physical.length(joint.s)), other,
+                                 physical.beside(physical.length(other))));
     }
     if (k >= solution.arcs.size() || solution.arcs[k].kind != equilibrium::ArcKind::line) continue;
     const auto& line = solution.arcs[k];

@@ -73,13 +73,16 @@ std::filesystem::path write_page(const std::vector<Figure>& figures, const Study
       "computed anew, none is read off the paper.</p>\n"
       "<p>The model: an inextensible Kirchhoff rod, GJ/EI = 2/3, ends free of moment unless said otherwise, "
       "round a rigid "
-      "cylinder without friction in the wrapping plane; no plates, no contact of the rod with itself, no "
-      "deformation of its "
-      "cross-section. Length in ρ = R + r, force in EI/ρ². “Stable” means against every perturbation of that "
+      "cylinder without friction in the wrapping plane; no plates, no deformation of its cross-section. "
+      "Rods are thin "
+      "(they pass through themselves) in the figures of the paper's main text; in those on R/r they have "
+      "their thickness "
+      "and touch themselves, at points. Length in ρ = R + r, force in EI/ρ². “Stable” means against every "
+      "perturbation of that "
       "rod in "
-      "space. The clove hitch, and the experimental, FEM and DER points, are not remade: the model has no "
-      "self-contact, and "
-      "the paper gives no numbers for them.</p>\n<ul>\n",
+      "space. The clove hitch is not remade, nor are the experimental, FEM "
+      "and DER points, "
+      "for which the paper gives no numbers.</p>\n<ul>\n",
       style, WINDLASS_VERSION, escaped(invocation), seconds);
   for (const Figure& figure : figures)
     text += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", figure.stem, escaped(figure.title));
@@ -91,10 +94,12 @@ std::filesystem::path write_page(const std::vector<Figure>& figures, const Study
 }
 
 std::vector<Figure> draw_all(const Study& study, const Canvas& canvas) {
-  for (const auto& [name, run] : study) write_run_data(name, run, canvas);
+  for (const auto& [name, run] : study)
+    if (!(run.scene.rod_radius > 0.0))
+      write_run_data(name, run, canvas);  // thick rods have files of their own
   std::vector<Figure> figures;
-  for (const auto& draw :
-       {contact_force, strength, collapse, pressure, pressure_map, wrapping_angle, surgical_knot})
+  for (const auto& draw : {contact_force, strength, collapse, pressure, pressure_map, wrapping_angle,
+                           surgical_knot, radius_ratio, contact_set, crossing_map})
     figures.push_back(draw(study, canvas));
   return figures;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "thick_runs.hpp"
 #include "windlass/output/stable_state.hpp"
 
 namespace windlass::figures {
@@ -23,6 +24,7 @@ std::vector<PlannedRun> planned_runs() {
                      "continuation.from=10", "continuation.to=0.5", "continuation.step_max=0.05"},
                     false});
   }
+  for (PlannedRun& run : thick_runs()) runs.push_back(std::move(run));
   return runs;
 }
 

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "pressure_profile.hpp"
 #include "rod_views.hpp"
 #include "strut_picture.hpp"
@@ -56,7 +58,7 @@ std::string heading(const equilibrium::Solution& solution, const std::string& ti
   if (units)
     text += "  set label 3 " + gnuplot_text(physical_subtitle(solution, *units, p_max), false) +
             " at screen 0.5, screen 0.888 center font ',9'\n";
-  text += "  set palette defined (0 '#fde725', 0.33 '#f98e09', 0.66 '#bc3754', 1 '#57106e')\n";
+  text += std::string("  set palette ") + pressure_palette + "\n";
   text += "  set cbrange [0:" + format_number(p_max > 0 ? p_max : 1.0) + "]\n";
   if (!(p_max > 0)) return text + "  unset colorbox\n";
   return text + "  set cblabel 'pressure p  [EI/ρ³]' offset -0.6,0\n  set cbtics font ',8'\n" +
@@ -77,28 +79,43 @@ std::vector<fs::path> plot_rod(const equilibrium::Solution& solution, const std:
   for (std::size_t i = 0; i < curve.s.size(); ++i)
     rows += data_line({curve.s[i], curve.r[i].x(), curve.r[i].y(), curve.r[i].z(), curve.p[i]});
   write("-curve.dat", rows);
-  if (!solution.has_cylinder)
-    return run_gnuplot(strut_picture(solution, curve, options.obstacles, title, subtitle(solution), stem),
-                       folder, options.formats);
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& r : curve.r) box.extend(r);
+  const double capstan_width = 6.0;  // [ρ], about that of a view
+  const Stroke stroke =
+      stroke_of(options.rod_radius, solution.has_cylinder ? capstan_width : 1.2 * box.sizes().maxCoeff());
+  if (!solution.has_cylinder) {
+    for (const int view : {1, 2})
+      if (stroke.radius > 0.0)
+        write(view == 1 ? "-tube-1.dat" : "-tube-2.dat", strut_tube(curve, stroke, view));
+    return run_gnuplot(
+        strut_picture(solution, curve, options.obstacles, stroke, title, subtitle(solution), stem), folder,
+        options.formats);
+  }
 
   const std::vector<PointForce> forces = point_forces(solution);
   const Heights heights = heights_of(curve, forces);
   write("-forces.dat", force_data(forces));
   write("-pressure.dat", pressure_data(curve, solution));
-  const RodScene rod{curve, solution, forces, drum_for(curve),
-                     heights.force > 0.0 ? 0.8 / heights.force : 0.0};
+  const RodScene rod{curve,
+                     solution,
+                     forces,
+                     drum_for(curve, options.rod_radius),
+                     heights.force > 0.0 ? 0.8 / heights.force : 0.0,
+                     heights.pressure,
+                     stroke};
   const bool planar = solution.z_span < 1e-6;
   Picture picture{stem, planar ? 7.0 : 8.5, 6.0, heading(solution, title, heights.pressure, options.units)};
   const auto panel = [&](const char* suffix, const View& view, bool with_rim, double left, double right) {
     const double low = 0.42, high = options.units ? 0.86 : 0.90;
     const double aspect = (right - left) * picture.width / ((high - low) * picture.height);
     write(suffix, view_data(rod, view));
-    picture.body +=
-        margins(left, right, low, high) + view_commands(stem + suffix, with_rim, frame_of(rod, view, aspect));
+    picture.body += margins(left, right, low, high) +
+                    view_commands(rod, stem + suffix, with_rim, frame_of(rod, view, aspect));
     picture.body += "  unset label\n  unset colorbox\n";  // once a picture
   };
   panel("-axis.dat", View::along_axis(), false, planar ? 0.13 : 0.03, planar ? 0.87 : 0.44);
-  if (!planar) panel("-side.dat", View::from(-M_PI / 2 + 0.5, 0.35), true, 0.46, 0.87);
+  if (!planar) panel("-side.dat", side_view(rod), true, 0.46, 0.87);
   picture.body += pressure_commands(forces, stem, heights, options.units) + "  unset multiplot\n";
   return run_gnuplot(picture, folder, options.formats);
 }

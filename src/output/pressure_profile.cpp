@@ -29,9 +29,10 @@ std::string pressure_data(const RodCurve& curve, const equilibrium::Solution& so
 }
 
 std::string force_data(const std::vector<PointForce>& forces) {
-  if (forces.empty()) return "? ?\n";
-  std::string text = "# s f\n";
-  for (const PointForce& force : forces) text += data_line({force.s, force.size});
+  if (forces.empty()) return "? ? ?\n";
+  std::string text = "# s f colour\n";
+  for (const PointForce& force : forces)
+    text += data_line({force.s, force.size, static_cast<double>(force_colour(force))});
   return text;
 }
 
@@ -56,11 +57,15 @@ std::string pressure_commands(const std::vector<PointForce>& point_forces, const
   if (!(p_max > 0)) text += "  unset ytics\n  unset ylabel\n";
   text += "  set y2range [0:" + format_number(f_max > 0 ? 1.25 * f_max : 1.0) +
           "]\n  set y2label 'point force f  [EI/ρ²]' offset -1,0 tc rgb '#c00000'\n";
+  if (std::any_of(point_forces.begin(), point_forces.end(),
+                  [](const auto& f) { return f.partner.has_value(); }))
+    text += "  set label 4 'blue: between strands' at graph 1, graph -0.33 right font ',9' tc " +
+            std::string("rgb '#0072b2'\n");
   const std::string pressure = "'" + stem + "-pressure.dat'", forces = "'" + stem + "-forces.dat'";
   return text + "  plot " + pressure + " with filledcurves y1=0 lc rgb '#f3c6a5' notitle, \\\n    " +
          pressure + " with lines lc rgb '#bc3754' lw 1.8 notitle, \\\n    " + forces +
-         " using 1:2 axes x1y2 with impulses lc rgb '#c00000' lw 2.5 notitle, \\\n    " + forces +
-         " using 1:2 axes x1y2 with points pt 9 ps 0.8 lc rgb '#c00000' notitle\n";
+         " using 1:2:3 axes x1y2 with impulses lc rgb variable lw 2.5 notitle, \\\n    " + forces +
+         " using 1:2:3 axes x1y2 with points pt 9 ps 0.8 lc rgb variable notitle\n";
 }
 
 }  // namespace windlass::output

@@ -18,7 +18,14 @@ Heights heights_of(const RodCurve& curve, const std::vector<PointForce>& forces)
 
 /// One block a line contact: s, p.
 std::string pressure_data(const RodCurve& curve, const equilibrium::Solution& solution);
-/// s, f.
+/// Colour of a point force, 0xRRGGBB: of an obstacle or of another strand.
+inline constexpr unsigned obstacle_colour = 0xc00000, strand_colour = 0x0072b2;
+inline unsigned force_colour(const PointForce& force) {
+  return force.partner ? strand_colour : obstacle_colour;
+}
+inline constexpr const char* strand_force_style = "lc rgb '#0072b2'";  ///< the same for gnuplot
+
+/// s, f, colour.
 std::string force_data(const std::vector<PointForce>& forces);
 
 /// @param stem  of the data files, STEM-pressure.dat and STEM-forces.dat

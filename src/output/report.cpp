@@ -43,6 +43,7 @@ fs::path write_report(const Run& run, const ReportOptions& options) {
   std::string page(assets::page_html());
   replace_once(page, "<!--TITLE-->", html_safe(run.info.scene));
   replace_once(page, "/*STYLE*/", assets::page_css());
+  replace_once(page, "/*TUBE*/", assets::tube_js());
   replace_once(page, "/*PAGE*/", assets::page_js());
   replace_once(page, "/*DATA*/", script_safe(report_data(run, options).dump()));
   replace_once(page, "/*PLOTLY*/", assets::plotly_js());

@@ -4,6 +4,7 @@
 #include <map>
 #include <numbers>
 
+#include "sheet.hpp"
 #include "windlass/output/plot.hpp"
 #include "windlass/output/report.hpp"
 #include "windlass/output/rod_curve.hpp"
@@ -91,10 +92,12 @@ ordered_json rod_json(const Solution& solution) {
       {"topology", solution.topology}, {"model", solution.model}, {"arcs", arcs_json(curve, solution)}};
   json["forces"] = ordered_json::array();
   for (const PointForce& force : point_forces(solution)) {
-    json["forces"].push_back({{"s", short_number(force.s)},
-                              {"r", triple(force.r)},
-                              {"d", triple(force.direction)},
-                              {"f", short_number(force.size)}});
+    ordered_json entry = {{"s", short_number(force.s)},
+                          {"r", triple(force.r)},
+                          {"d", triple(force.direction)},
+                          {"f", short_number(force.size)}};
+    if (force.partner) entry["partner"] = short_number(*force.partner);
+    json["forces"].push_back(std::move(entry));
   }
   json["eigenvalues"] = ordered_json::array();
   if (solution.stability) {
@@ -108,13 +111,13 @@ ordered_json rod_json(const Solution& solution) {
 }
 
 /// Flat obstacles: corners of a rectangle each, beside the whole length of the rod.
-ordered_json sheets_json(const Solution& solution, const obstacle::Set& obstacles) {
+ordered_json sheets_json(const Solution& solution, const obstacle::Set& obstacles, double rod_radius) {
   const double half = 0.5 * (solution.arcs.back().s.tail<1>()[0] - solution.arcs.front().s[0]);
   const Eigen::AlignedBox3d box(Vector3d(-half, 0.0, 0.0), Vector3d(half, 0.0, 0.0));
   ordered_json sheets = ordered_json::array();
   for (int o = 0; o < obstacles.size(); ++o) {
     ordered_json corners = ordered_json::array();
-    for (const Vector3d& corner : obstacles[o].sheet(box)) corners.push_back(triple(corner));
+    for (const Vector3d& corner : sheet_of(obstacles[o], box, rod_radius)) corners.push_back(triple(corner));
     if (!corners.empty()) sheets.push_back(std::move(corners));
   }
   return sheets;
@@ -145,6 +148,12 @@ std::vector<Quantity> quantities(const Run& run, const ReportOptions& options) {
       {"tilt", "tilt at the mid-point [rad]", [or_flat](const BranchRow& r) { return or_flat(r.tilt); }});
   list.push_back({"z_span", "extent in z [ρ]", [or_flat](const BranchRow& r) { return or_flat(r.z_span); }});
   list.push_back({"energy", "energy [EI/ρ]", [](const BranchRow& r) { return r.energy; }});
+  if (options.rod_radius > 0.0) {
+    list.push_back({"self_distance", "closest approach to itself [ρ]",
+                    [](const BranchRow& r) { return r.self_distance.value_or(std::nan("")); }});
+    list.push_back(
+        {"self_force", "force between strands [EI/ρ²]", [](const BranchRow& r) { return r.self_force; }});
+  }
   list.push_back({"eigenvalue_1", "lowest eigenvalue",
                   [](const BranchRow& r) { return r.eigenvalue_1.value_or(std::nan("")); }});
   list.push_back({"index", "number of negative eigenvalues",
@@ -201,6 +210,7 @@ ordered_json report_data(const Run& run, const ReportOptions& options) {
   ordered_json data;
   data["info"] = to_json(run.info);
   data["scene"] = run.scene_toml;
+  data["radius"] = options.rod_radius;
   for (const Quantity& quantity : list)
     data["quantities"].push_back({{"name", quantity.name}, {"title", quantity.title}});
   if (run.info.has_cylinder) {
@@ -220,7 +230,7 @@ ordered_json report_data(const Run& run, const ReportOptions& options) {
     if (options.complete) options.complete(i, solution);
     data["rods"][point_name(key.branch, key.point, key.label)] = rod_json(solution);
     if (data["sheets"].empty() && !solution.has_cylinder)
-      data["sheets"] = sheets_json(solution, options.obstacles);
+      data["sheets"] = sheets_json(solution, options.obstacles, options.rod_radius);
   }
   return data;
 }

@@ -100,8 +100,8 @@ std::vector<PointForce> point_forces(const equilibrium::Solution& solution) {
   std::vector<PointForce> forces;
   for (const auto& joint : solution.joints) {
     if (joint.partner >= 0)
-      forces.push_back(
-          {joint.s, joint.r, equilibrium::strand_direction(solution, joint), joint.strand_force});
+      forces.push_back({joint.s, joint.r, equilibrium::strand_direction(solution, joint), joint.strand_force,
+                        solution.joints[static_cast<std::size_t>(joint.partner)].s});
     if (joint.kind != equilibrium::JointKind::touch && joint.kind != equilibrium::JointKind::edge) continue;
     const Vector3d outward =
         solution.has_cylinder ? Vector3d(joint.r.x(), joint.r.y(), 0.0).normalized() : joint.normal;

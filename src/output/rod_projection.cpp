@@ -1,4 +1,4 @@
-#include "rod_projection.hpp"
+#include "windlass/output/rod_projection.hpp"
 
 #include <algorithm>
 #include <numbers>
@@ -51,14 +51,15 @@ std::vector<Vector2d> Drum::outline(const View& view) const {
   return points;
 }
 
-Drum drum_for(const RodCurve& curve) {
+Drum drum_for(const RodCurve& curve, double rod_radius) {
   Drum drum;
+  drum.radius = 1.0 - rod_radius;
   double low = 0.0, high = 0.0;
   for (const Vector3d& r : curve.r) {
     if (std::hypot(r.x(), r.y()) > 1.6) continue;
     low = std::min(low, r.z()), high = std::max(high, r.z());
   }
-  drum.low = low - 0.8, drum.high = high + 0.8;
+  drum.low = low - 0.8 - rod_radius, drum.high = high + 0.8 + rod_radius;
   return drum;
 }
 

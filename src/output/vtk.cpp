@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "sheet.hpp"
 #include "windlass/obstacle/scene_obstacles.hpp"
 #include "windlass/output/atomic_file.hpp"
 #include "windlass/output/branches_csv.hpp"
@@ -92,7 +93,7 @@ std::string fields_of(const equilibrium::Solution& solution, const scene::Scene&
   return field(values);
 }
 
-std::string rod_text(const RodCurve& curve, const equilibrium::Solution& solution,
+std::string rod_text(const RodCurve& curve, const equilibrium::Solution& solution, double rod_radius,
                      const std::string& fields) {
   std::vector<Vector3d> d1, d2, d3;
   std::vector<double> contact;
@@ -104,24 +105,28 @@ std::string rod_text(const RodCurve& curve, const equilibrium::Solution& solutio
     along.push_back(static_cast<int>(i));
   }
   const std::string data = "<PointData Scalars=\"pressure\" Vectors=\"d3\">\n" + array("s", curve.s) +
-                           array("pressure", curve.p) + array("contact", contact) + array("d1", d1) +
-                           array("d2", d2) + array("d3", d3) + array("force", curve.n) +
+                           array("pressure", curve.p) + array("contact", contact) +
+                           array("radius", std::vector<double>(curve.s.size(), rod_radius)) +
+                           array("d1", d1) + array("d2", d2) + array("d3", d3) + array("force", curve.n) +
                            array("moment", curve.m) + "</PointData>\n";
   return poly_data(fields, {curve.s.size(), 0, 1, 0},
                    data + points(curve.r) + cells("Lines", along, static_cast<int>(along.size())));
 }
 
-std::string forces_text(const std::vector<PointForce>& forces, const std::string& fields) {
-  std::vector<Vector3d> places, vectors;
-  std::vector<double> sizes, s;
+std::string forces_text(const std::vector<PointForce>& forces, double rod_radius, const std::string& fields) {
+  std::vector<Vector3d> places, touched, vectors;
+  std::vector<double> sizes, s, strand, partner;
   std::vector<int> vertices;
   for (const PointForce& force : forces) {
     places.push_back(force.r), vectors.push_back(force.size * force.direction);
     sizes.push_back(force.size), s.push_back(force.s);
+    touched.push_back(force.r - rod_radius * force.direction);
+    strand.push_back(force.partner ? 1.0 : 0.0), partner.push_back(force.partner.value_or(force.s));
     vertices.push_back(static_cast<int>(vertices.size()));
   }
   const std::string data = "<PointData Scalars=\"size\" Vectors=\"force\">\n" + array("s", s) +
-                           array("size", sizes) + array("force", vectors) + "</PointData>\n";
+                           array("size", sizes) + array("force", vectors) + array("touched", touched) +
+                           array("strand", strand) + array("partner_s", partner) + "</PointData>\n";
   return poly_data(fields, {places.size(), places.size(), 0, 0},
                    data + points(places) + cells("Verts", vertices, 1));
 }
@@ -134,7 +139,8 @@ VtkRod vtk_rod(const equilibrium::Solution& solution, const scene::Scene& scene)
   for (const auto& arc : solution.arcs)
     if (arc.s.size() > 0) length += arc.s.tail<1>()[0] - arc.s[0];
   const RodCurve curve = dense_curve(solution, std::min(0.05, length / 200.0));
-  return {rod_text(curve, solution, fields), forces_text(point_forces(solution), fields)};
+  return {rod_text(curve, solution, scene.rod_radius, fields),
+          forces_text(point_forces(solution), scene.rod_radius, fields)};
 }
 
 std::string vtk_cylinder(const scene::Scene& scene, double low, double high) {
@@ -155,11 +161,11 @@ std::string vtk_cylinder(const scene::Scene& scene, double low, double high) {
                        points(places) + cells("Polys", quads, 4));
 }
 
-std::string vtk_walls(const obstacle::Set& obstacles, const Eigen::AlignedBox3d& box) {
+std::string vtk_walls(const obstacle::Set& obstacles, const Eigen::AlignedBox3d& box, double rod_radius) {
   std::vector<Vector3d> places, normals;
   std::vector<int> quads;
   for (int o = 0; o < obstacles.size(); ++o)
-    for (const Vector3d& corner : obstacles[o].sheet(box)) {
+    for (const Vector3d& corner : sheet_of(obstacles[o], box, rod_radius)) {
       quads.push_back(static_cast<int>(places.size()));
       places.push_back(corner), normals.push_back(obstacles[o].normal(corner));
     }
@@ -199,9 +205,12 @@ fs::path export_vtk(const Run& run, const scene::Scene& scene, const std::vector
     const VtkRod rod = vtk_rod(solution, scene);
     replace_file(folder / ("rod-" + names[k] + ".vtp"), std::string_view(rod.rod));
     sets += data_set(k, 0, "rod", "rod-" + names[k] + ".vtp");
-    if (!scene.has_cylinder && scene.walls.empty()) continue;
-    replace_file(folder / ("forces-" + names[k] + ".vtp"), std::string_view(rod.forces));
-    sets += data_set(k, 1, "forces", "forces-" + names[k] + ".vtp");
+    const bool beside_obstacles = scene.has_cylinder || !scene.walls.empty();
+    if (beside_obstacles || scene.self_contact) {
+      replace_file(folder / ("forces-" + names[k] + ".vtp"), std::string_view(rod.forces));
+      sets += data_set(k, 1, "forces", "forces-" + names[k] + ".vtp");
+    }
+    if (!beside_obstacles) continue;
     sets += scene.has_cylinder ? data_set(k, 2, "cylinder", "cylinder.vtp")
                                : data_set(k, 2, "walls", "walls.vtp");
     include_height(solution, low, high);
@@ -211,7 +220,8 @@ fs::path export_vtk(const Run& run, const scene::Scene& scene, const std::vector
   if (scene.has_cylinder)
     replace_file(folder / "cylinder.vtp", std::string_view(vtk_cylinder(scene, low, high)));
   else if (!scene.walls.empty())
-    replace_file(folder / "walls.vtp", std::string_view(vtk_walls(obstacle::obstacles_of(scene), box)));
+    replace_file(folder / "walls.vtp",
+                 std::string_view(vtk_walls(obstacle::obstacles_of(scene), box, scene.rod_radius)));
   const fs::path collection = folder / (stem + ".pvd");
   replace_file(collection,
                std::string_view("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "

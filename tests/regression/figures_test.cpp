@@ -41,7 +41,7 @@ BOOST_AUTO_TEST_CASE(every_figure_is_made_with_data_script_and_statements) {
   const auto figs = folder.path() / "figs";
   const std::string page = slurp(figs / "index.html");
   const auto summary = nlohmann::json::parse(outcome.out);
-  BOOST_TEST(summary["figures"].size() == 7u);
+  BOOST_TEST(summary["figures"].size() == 10u);
   for (const std::string stem : summary["figures"]) {
     BOOST_TEST(slurp(figs / (stem + ".svg")).starts_with("<?xml"), stem);
     BOOST_TEST(std::filesystem::exists(figs / (stem + ".gp")), stem);
@@ -71,6 +71,27 @@ BOOST_AUTO_TEST_CASE(every_figure_is_made_with_data_script_and_statements) {
     // Finite tails move the limit by exp(-2 √T L_tail), most for π: L_tail = 13, 1e-8.
     BOOST_TEST(std::abs(std::stod(line) / capstan::line_limit(phi * M_PI) - 1.0) < 1e-6, line);
   }
+
+  // Rods that touch themselves: one turn at R/r = 2.5, where README.md has the tensions.
+  std::istringstream map(slurp(figs / "crossing-map-2pi.dat"));
+  for (std::string line; std::getline(map, line);) {
+    double ratio = 0.0, opens = 0.0, splits = 0.0, on_cylinder = 0.0;
+    if (!(std::istringstream(line) >> ratio >> opens >> splits >> on_cylinder) || ratio != 2.5) continue;
+    BOOST_TEST(opens == 1.251233258, boost::test_tools::tolerance(1e-8));
+    BOOST_TEST(splits == 4.989572779, boost::test_tools::tolerance(1e-8));
+    BOOST_TEST(on_cylinder > splits);
+  }
+  // Two turns: the thickness counts in ρ alone where no strand touches another, below the opening of the crossing.
+  const auto lowest = [&](const char* name) {
+    std::istringstream rows(slurp(figs / name));
+    std::string heading;
+    std::getline(rows, heading);
+    double tension = 0.0, force = 0.0;
+    rows >> tension >> force;
+    BOOST_TEST(tension == 0.1);
+    return force;
+  };
+  BOOST_TEST(lowest("two-turns-1.dat") == lowest("two-turns-5.dat"), boost::test_tools::tolerance(1e-7));
   BOOST_TEST(run_program({"figures", "--out", "figs"}, folder.path()).status == 1);  // not empty
 }
 

@@ -42,6 +42,10 @@ Figure pressure_map(const Study& study, const Canvas& canvas);    ///< the same 
 Figure wrapping_angle(const Study& study, const Canvas& canvas);  ///< 2 phi_star at 4π
 Figure surgical_knot(const Study& study, const Canvas& canvas);   ///< n loops against one coil
 
+Figure radius_ratio(const Study& study, const Canvas& canvas);  ///< R_tot at 4π, R/r = 1, 2.5, 5
+Figure contact_set(const Study& study, const Canvas& canvas);   ///< wrapping angle and lines at 4π, the same
+Figure crossing_map(const Study& study, const Canvas& canvas);  ///< where strands meet, in (T, R/r)
+
 /// All of them. @throws output::OutputError when a file cannot be written or gnuplot fails
 std::vector<Figure> draw_all(const Study& study, const Canvas& canvas);
 

@@ -18,6 +18,7 @@ struct PlannedRun {
   std::string scene;                  ///< file stem of a shipped scene
   std::vector<std::string> settings;  ///< KEY=VALUE
   bool diagram = true;                ///< else one branch
+  bool may_end = false;               ///< early: how far the branch goes is what is asked
 };
 
 std::vector<PlannedRun> planned_runs();

@@ -17,6 +17,7 @@ struct PlotOptions {
   std::size_t most_rods = 12;                       ///< of the automatic choice
   std::optional<scene::Units> units;                ///< adds axes in newtons and grams to the diagram
   obstacle::Set obstacles;                          ///< drawn beside struts
+  double rod_radius = 0.0;                          ///< [ρ]; 0: rods are drawn as lines
   std::vector<std::pair<double, double>> measured;  ///< dimensionless (T, R_tot) laid over the diagram
   std::filesystem::path folder;                     ///< where pictures go; empty: RUN/plots
 };

@@ -11,6 +11,7 @@ namespace windlass::output {
 struct ReportOptions {
   obstacle::Set obstacles;            ///< drawn beside struts
   std::optional<scene::Units> units;  ///< adds newtons and grams to the quantities on offer
+  double rod_radius = 0.0;            ///< [ρ]; 0: rods are drawn as lines
   std::size_t most_rods = 600;        ///< rods stored in the page; of longer runs every k-th ordinary point
   std::filesystem::path file;         ///< empty: RUN/report.html
   /// Called with each rod of the page and its place in the store, to add what the run does not hold (modes).

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "windlass/equilibrium/solution.hpp"
@@ -22,12 +23,14 @@ struct PointForce {
   double s = 0.0;                ///< [ρ]
   Eigen::Vector3d r, direction;  ///< outward normal, the direction of the force on the rod
   double size = 0.0;             ///< [EI/ρ²]
+  std::optional<double> partner =
+      std::nullopt;  ///< of a force of another strand: where that one is touched [ρ]
 };
 
 /// @param spacing  largest distance of neighbouring places [ρ], where it needs less than 40 places a sample
 RodCurve dense_curve(const equilibrium::Solution& solution, double spacing = 0.03);
 
-/// Touches and edges, with their forces.
+/// Touches and edges, and the places where strands touch each other, with their forces on the rod.
 std::vector<PointForce> point_forces(const equilibrium::Solution& solution);
 
 }  // namespace windlass::output

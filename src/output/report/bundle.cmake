@@ -1,4 +1,4 @@
-# Puts the web page of `windlass report` into the program: page.html, page.css, page.js and Plotly.
+# Puts the web page of `windlass report` into the program: page.html, page.css, page.js, tube.js and Plotly.
 #
 # Plotly (MIT) is fetched from npm once a build folder and not kept in the repository. Without npm or without network
 # the program is built all the same; `windlass report` then says what is missing.
@@ -21,7 +21,8 @@ if(WINDLASS_NPM AND NOT EXISTS ${plotly_file})
 endif()
 
 set(report_assets ${CMAKE_CURRENT_LIST_DIR}/assets.cpp)
-set(report_inputs ${CMAKE_CURRENT_LIST_DIR}/page.html ${CMAKE_CURRENT_LIST_DIR}/page.css ${CMAKE_CURRENT_LIST_DIR}/page.js)
+set(report_inputs ${CMAKE_CURRENT_LIST_DIR}/page.html ${CMAKE_CURRENT_LIST_DIR}/page.css
+    ${CMAKE_CURRENT_LIST_DIR}/page.js ${CMAKE_CURRENT_LIST_DIR}/tube.js)
 set(report_definitions WINDLASS_REPORT_FOLDER="${CMAKE_CURRENT_LIST_DIR}")
 if(EXISTS ${plotly_file})
   list(APPEND report_inputs ${plotly_file})

@@ -11,7 +11,7 @@
   const plain = { responsive: true, displayModeBar: false };
   const font = { family: "DejaVu Sans, sans-serif", size: 12 };
 
-  const state = { x: "", y: "", xLog: false, yLog: false, hidden: new Set(), point: "", amplitude: 0, camera: null };
+  const state = { thick: data.radius > 0, x: "", y: "", xLog: false, yLog: false, hidden: new Set(), point: "", amplitude: 0, camera: null };
   const places = new Map(); // point name -> {branch, k}
   data.branches.forEach((b) => b.names.forEach((name, k) => places.set(name, { branch: b, k })));
 
@@ -153,11 +153,13 @@
     rod.arcs.forEach((arc) => arc.z.forEach((z, i) => {
       if (Math.hypot(arc.x[i], arc.y[i]) < 1.6) { low = Math.min(low, z); high = Math.max(high, z); }
     }));
-    low -= 0.9; high += 0.9;
+    low -= 0.9 + data.radius; high += 0.9 + data.radius;
+    // The centre line touches at 1, the surface of a thick rod at 1 less its radius. A line is drawn with some width, too.
+    const radius = data.radius > 0 ? 1 - data.radius : 0.97;
     const turns = 72, x = [[], []], y = [[], []], z = [[], []];
     for (let k = 0; k <= turns; ++k) {
       const a = (2 * Math.PI * k) / turns;
-      [low, high].forEach((height, row) => { x[row].push(0.97 * Math.cos(a)); y[row].push(0.97 * Math.sin(a)); z[row].push(height); });
+      [low, high].forEach((height, row) => { x[row].push(radius * Math.cos(a)); y[row].push(radius * Math.sin(a)); z[row].push(height); });
     }
     return {
       type: "surface", x, y, z, showscale: false, hoverinfo: "skip", opacity: 1,
@@ -174,37 +176,76 @@
     });
   }
 
+  const pressureBar = { title: { text: "p [EI/ρ³]", side: "right" }, thickness: 12, len: 0.75, x: 1.0 };
+
+  function tubeTrace(arc, largest) {
+    const texts = arc.s.map((s, i) => `s ${s.toPrecision(4)}${arc.line ? `<br>p ${short(arc.p[i])}` : ""}`);
+    const places = tube.surface(arc, data.radius), ends = (values) => [values[0], ...values, values[values.length - 1]];
+    const rows = (values) => ends(values).map((value, i) => places.x[i].map(() => value));
+    return {
+      type: "surface", ...places, surfacecolor: rows(arc.line ? arc.p : arc.s.map(() => 0)), cmin: 0, cmax: largest, showscale: false,
+      colorscale: arc.line ? pressureScale : [[0, "#c9c7c1"], [1, "#c9c7c1"]], hovertext: rows(texts), hoverinfo: "text",
+      lighting: { ambient: 0.7, diffuse: 0.55, specular: 0.15, roughness: 0.6 },
+      contours: { x: { highlight: false }, y: { highlight: false }, z: { highlight: false } },
+    };
+  }
+
   function rodTraces(rod) {
     const largest = Math.max(1e-12, ...rod.arcs.flatMap((arc) => arc.p || []));
     let bar = false;
-    return rod.arcs.map((arc) => {
+    return rod.arcs.filter((arc) => arc.s.length > 1).map((arc) => {
+      if (state.thick) {
+        const trace = tubeTrace(arc, largest);
+        if (!arc.line || bar) return trace;
+        bar = true;
+        return { ...trace, showscale: true, colorbar: pressureBar };
+      }
       const trace = { type: "scatter3d", mode: "lines", x: arc.x, y: arc.y, z: arc.z, showlegend: false, customdata: arc.s,
         hovertemplate: "s %{customdata:.4g}<br>(%{x:.4g}, %{y:.4g}, %{z:.4g})<extra></extra>" };
       if (!arc.line) return { ...trace, line: { color: "#303030", width: 6 } };
       const line = { color: arc.p, cmin: 0, cmax: largest, colorscale: pressureScale, width: 9, showscale: !bar,
-        colorbar: { title: { text: "p [EI/ρ³]", side: "right" }, thickness: 12, len: 0.75, x: 1.0 } };
+        colorbar: pressureBar };
       bar = true;
       return { ...trace, line };
     });
   }
 
-  /** Point forces as arrows along the outward normal, the largest 0.8 ρ long. */
-  function forceTraces(rod) {
-    const forces = rod.forces.filter((force) => force.f > 0);
-    if (forces.length === 0) return [];
-    const largest = Math.max(...forces.map((force) => force.f)), unit = capstan ? 1 : 0.15;
-    const shafts = { x: [], y: [], z: [] }, heads = { x: [], y: [], z: [], u: [], v: [], w: [] }, texts = [];
+  const between = (force) => force.partner !== undefined; // strands, and not the cylinder
+  const forceColour = (force) => (between(force) ? "#0072b2" : "#c00000");
+  const forceText = (force) => (between(force)
+    ? `force between strands f = ${short(force.f)}<br>on s = ${short(force.s)}, from the strand at s = ${short(force.partner)}`
+    : `point force f = ${short(force.f)} at s = ${short(force.s)}`);
+
+  /** Point forces as arrows along the outward normal from the rod's surface, the largest 0.8 ρ long. */
+  function arrowTraces(forces, largest, unit) {
+    const shafts = { x: [], y: [], z: [] }, heads = { x: [], y: [], z: [], u: [], v: [], w: [] };
+    const begin = state.thick ? data.radius : 0, colour = forceColour(forces[0]);
     forces.forEach((force) => {
-      const length = unit * Math.max(0.12, (0.8 * force.f) / largest), tip = force.r.map((c, i) => c + length * force.d[i]);
-      ["x", "y", "z"].forEach((c, i) => { shafts[c].push(force.r[i], tip[i], null); heads[c].push(tip[i]); });
+      const length = unit * Math.max(0.12, (0.8 * force.f) / largest);
+      const at = force.r.map((c, i) => c + begin * force.d[i]), tip = at.map((c, i) => c + length * force.d[i]);
+      ["x", "y", "z"].forEach((c, i) => { shafts[c].push(at[i], tip[i], null); heads[c].push(tip[i]); });
       ["u", "v", "w"].forEach((c, i) => heads[c].push(force.d[i]));
-      texts.push(`point force f = ${short(force.f)} at s = ${short(force.s)}`);
     });
     return [
-      { type: "scatter3d", mode: "lines", ...shafts, line: { color: "#c00000", width: 6 }, hoverinfo: "skip", showlegend: false },
-      { type: "cone", ...heads, sizemode: "raw", sizeref: 0.3 * unit, anchor: "tip", showscale: false, text: texts, hoverinfo: "text",
-        colorscale: [[0, "#c00000"], [1, "#c00000"]] },
+      { type: "scatter3d", mode: "lines", ...shafts, line: { color: colour, width: 6 }, hoverinfo: "skip", showlegend: false },
+      { type: "cone", ...heads, sizemode: "raw", sizeref: 0.3 * unit, anchor: "tip", showscale: false, text: forces.map(forceText),
+        hoverinfo: "text", colorscale: [[0, colour], [1, colour]] },
     ];
+  }
+
+  /** Where strands touch: a disc between the two of a thick rod. */
+  function touchTraces(rod) {
+    if (!state.thick) return [];
+    const list = rod.forces.filter((force) => between(force) && force.s < force.partner).map((force) => ({
+      centre: force.r.map((c, i) => c - data.radius * force.d[i]), normal: force.d, radius: 1.3 * data.radius, text: forceText(force) }));
+    return list.length === 0 ? [] : [{ type: "mesh3d", ...tube.discs(list), hoverinfo: "text", color: "#0072b2", opacity: 0.85, flatshading: true }];
+  }
+
+  function forceTraces(rod) {
+    const forces = rod.forces.filter((force) => force.f > 0), unit = capstan ? 1 : 0.15;
+    const largest = Math.max(...forces.map((force) => force.f));
+    return [forces.filter((force) => !between(force)), forces.filter(between)].filter((list) => list.length > 0)
+      .flatMap((list) => arrowTraces(list, largest, unit));
   }
 
   function modeTrace(rod) {
@@ -216,13 +257,19 @@
     };
   }
 
+  /** Seen from where the strands of the run's rods touch, if any do: that side of the cylinder, or else the south. */
+  const seenFrom = (() => {
+    const touch = Object.values(data.rods).flatMap((rod) => rod.forces.filter(between)).find((force) => Math.abs(force.r[1]) > 0.1);
+    return touch && touch.r[1] > 0 ? 1 : -1;
+  })();
+
   function drawRod(rod) {
     const axis = (text) => ({ title: { text }, backgroundcolor: "#fff", gridcolor: "#eee", zerolinecolor: "#ddd", nticks: 5 });
-    const traces = [modeTrace(rod), ...(capstan ? [cylinderTrace(rod)] : []), ...sheetTraces(), ...rodTraces(rod), ...forceTraces(rod)];
+    const traces = [modeTrace(rod), ...(capstan ? [cylinderTrace(rod)] : []), ...sheetTraces(), ...rodTraces(rod), ...touchTraces(rod), ...forceTraces(rod)];
     Plotly.react("rod", traces, {
       font, margin: { l: 0, r: 0, t: 0, b: 0 }, uirevision: "rod",
       scene: { aspectmode: "data", xaxis: axis("x"), yaxis: axis("y"), zaxis: axis("z"),
-        camera: { eye: capstan ? { x: 0.5, y: -1.0, z: 0.5 } : { x: 0.3, y: -1.6, z: 0.6 }, projection: { type: "orthographic" } } },
+        camera: { eye: capstan ? { x: -0.5 * seenFrom, y: seenFrom, z: 0.5 } : { x: 0.3, y: -1.6, z: 0.6 }, projection: { type: "orthographic" } } },
     }, config);
   }
 
@@ -231,8 +278,8 @@
     const traces = lines.map((arc) => ({ type: "scatter", mode: "lines", x: arc.s, y: arc.p, fill: "tozeroy", fillcolor: "#f3c6a5",
       line: { color: "#bc3754", width: 2, simplify: false }, showlegend: false, hovertemplate: "s %{x:.4g}<br>p %{y:.5g}<extra></extra>" }));
     rod.forces.forEach((force) => traces.push({ type: "scatter", mode: "lines+markers", x: [force.s, force.s], y: [0, force.f], yaxis: "y2",
-      line: { color: "#c00000", width: 3 }, marker: { symbol: "triangle-up", size: [0, 9], color: "#c00000" }, showlegend: false,
-      hovertemplate: "s %{x:.4g}<br>f %{y:.5g}<extra></extra>" }));
+      line: { color: forceColour(force), width: 3 }, marker: { symbol: "triangle-up", size: [0, 9], color: forceColour(force) },
+      showlegend: false, hovertemplate: `${forceText(force)}<extra></extra>` }));
     Plotly.react("pressure", traces, {
       font: { ...font, size: 11 }, margin: { l: 48, r: 48, t: 6, b: 36 },
       xaxis: { title: { text: "arclength s [ρ]", standoff: 4 }, showline: true, zeroline: false, gridcolor: "#eee" },
@@ -257,8 +304,8 @@
     const { branch, k } = places.get(name), special = data.special.find((s) => s.label === name);
     const index = branch.index[k];
     element("point").textContent = (special ? `${special.type.replace("_", " ")} ` : "point ") + name;
-    const symbols = { phi: "φ", phi_star: "φ*", T_N: "T [N]", R_tot_N: "R_tot [N]", end_force: "thrust", end_moment: "axial moment" };
-    const names = capstan ? ["T", "phi", "R_tot", "phi_star", "tilt", "T_N", "R_tot_N"] : ["shortening", "end_force", "end_moment"];
+    const symbols = { phi: "φ", phi_star: "φ*", T_N: "T [N]", R_tot_N: "R_tot [N]", end_force: "thrust", end_moment: "axial moment", self_force: "between strands" };
+    const names = capstan ? ["T", "phi", "R_tot", "phi_star", "tilt", "self_force", "T_N", "R_tot_N"] : ["shortening", "end_force", "end_moment", "self_force"];
     const facts = names.filter((n) => branch.values[n]).map((n) => `${symbols[n] || n} = ${short(branch.values[n][k])}`);
     facts.push(index === null ? "stability not computed" : index === 0 ? "stable" : `unstable, index ${index}`);
     if (found.rod.mode) facts.push(`lowest mode ${found.rod.mode.plane} of plane, ${found.rod.mode.parity}`.replace("in of plane", "in plane"));
@@ -395,6 +442,8 @@
     });
     element("amplitude").addEventListener("input", () => setAmplitude(Number(element("amplitude").value)));
     element("animate").addEventListener("click", toggleAnimation);
+    element("thick-label").hidden = !(data.radius > 0);
+    element("thick").addEventListener("change", () => { state.thick = element("thick").checked; select(state.point); });
     const asked = decodeURIComponent(location.hash.replace("#", ""));
     select(places.has(asked) ? asked : (data.special.find((s) => places.has(s.label)) || { label: data.branches[0].names[0] }).label);
     document.body.dataset.ready = "yes";

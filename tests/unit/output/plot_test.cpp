@@ -2,6 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 #include <fstream>
+#include <sstream>
 
 #include "support/temporary_folder.hpp"
 #include "synthetic_run.hpp"
@@ -120,6 +121,28 @@ BOOST_AUTO_TEST_CASE(pictures_scripts_and_data_are_made) {
   BOOST_CHECK_THROW(output::plot_run(temporary / "run", options), output::OutputError);
   options.points.clear(), options.formats = {"gif"};
   BOOST_CHECK_THROW(output::plot_run(temporary / "run", options), output::OutputError);
+}
+
+BOOST_AUTO_TEST_CASE(a_thick_rod_is_drawn_with_its_width) {
+  if (std::system("gnuplot --version > /dev/null 2>&1") != 0) return;
+  const test::TemporaryFolder temporary;
+  output::PlotOptions options;
+  options.formats = {"png@60"};
+  options.rod_radius = 0.25;
+  auto solution = test::planar_capstan(1.0, two_pi);
+  solution.joints[1].partner = 2, solution.joints[2].partner = 1;  // as if the two edges touched each other
+  solution.joints[1].strand_force = solution.joints[2].strand_force = 0.1;
+  output::plot_rod(solution, "thick", options, temporary.path(), "thick");
+  BOOST_TEST(magic(temporary / "thick.png") == "\x89PNG\r");
+  double widest = 0.0;
+  std::istringstream data(output::read_file(temporary / "thick-axis.dat"));
+  for (std::string line; std::getline(data, line) && line.find("# cylinder") != 0;) {
+    double x = 0.0, y = 0.0;
+    if (std::sscanf(line.c_str(), "%lf %lf", &x, &y) == 2 && y < 0.0)
+      widest = std::max(widest, std::hypot(x, y));
+  }
+  BOOST_TEST(widest == 1.25, boost::test_tools::tolerance(1e-3));  // the outside of the coil
+  BOOST_TEST(output::read_file(temporary / "thick.gp").find("between strands") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(a_locus_is_one_curve_without_stability) {

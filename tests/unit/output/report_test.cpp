@@ -80,6 +80,29 @@ BOOST_AUTO_TEST_CASE(data_hold_every_point_and_its_rod) {
   BOOST_TEST(thinned["rods"]["BP1"]["eigenvalues"][0] == 7.0);
 }
 
+BOOST_AUTO_TEST_CASE(a_thick_rod_has_its_radius_and_names_partners) {
+  const test::TemporaryFolder temporary;
+  auto solution = test::planar_capstan(2.0, 2 * std::numbers::pi);
+  solution.joints[1].partner = 2, solution.joints[2].partner = 1;
+  solution.joints[1].strand_force = solution.joints[2].strand_force = solution.self_force = 0.125;
+  auto writer = output::RunWriter::create(temporary / "run", test::capstan_scene(2.0, 1.0), {});
+  writer.add_point(output::make_row(solution, 1, 1, "", "start", 0.1), solution);
+  writer.finish("finished", {}, {});
+  output::ReportOptions options;
+  options.rod_radius = 0.25;
+  const auto data = output::report_data(output::read_run(temporary / "run"), options);
+  BOOST_TEST(data["radius"] == 0.25);
+  BOOST_TEST(data["branches"][0]["values"]["self_force"][0] == 0.125);
+  std::size_t strands = 0;
+  for (const auto& force : data["rods"]["1-1"]["forces"]) {
+    if (!force.contains("partner")) continue;
+    BOOST_TEST(force["partner"] == -force["s"].get<double>());
+    BOOST_TEST(force["f"] == 0.125);
+    ++strands;
+  }
+  BOOST_TEST(strands == 2u);
+}
+
 BOOST_AUTO_TEST_CASE(page_is_self_contained) {
   const test::TemporaryFolder temporary;
   test::write_synthetic_run(temporary / "run");
@@ -104,7 +127,10 @@ BOOST_AUTO_TEST_CASE(clicking_a_point_changes_the_rod) {
     const body = document.body.dataset, rod = document.getElementById("rod"), diagram = document.getElementById("diagram");
     const reach = () => Math.max(...rod.data.filter((t) => t.type === "scatter3d").flatMap((t) => t.z).map((z) => Math.abs(z || 0)));
     body.first = body.point; body.firstReach = reach();
-    diagram.emit("plotly_click", {points: [{customdata: "2-20"}]});
+    const {xaxis, yaxis} = diagram._fullLayout, box = diagram.getBoundingClientRect();
+    const trace = diagram.data.find((t) => (t.customdata || []).includes("2-20")), at = trace.customdata.indexOf("2-20");
+    diagram.dispatchEvent(new MouseEvent("click", {clientX: box.left + xaxis._offset + xaxis.d2p(trace.x[at]),
+      clientY: box.top + yaxis._offset + yaxis.d2p(trace.y[at])}));
     body.second = body.point; body.secondReach = reach();
     body.traces = diagram.data.length;
     document.querySelector("[data-branch='1']").click();

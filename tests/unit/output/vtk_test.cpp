@@ -95,6 +95,28 @@ BOOST_AUTO_TEST_CASE(point_forces_are_vertices_with_vectors) {
     if (node.get<std::string>("<xmlattr>.Name") == "T") BOOST_TEST(numbers(node).at(0) == T);
 }
 
+BOOST_AUTO_TEST_CASE(a_thick_rod_carries_its_radius_and_says_what_strands_touch) {
+  auto scene = test::capstan_scene(T, phi);
+  scene.rod_radius = 0.25;
+  auto solution = test::planar_capstan(T, phi);
+  auto &first = solution.joints[1], &second = solution.joints[2];  // as if the two edges touched each other
+  first.partner = 2, second.partner = 1, first.strand_force = second.strand_force = 0.125;
+  const output::VtkRod rod = output::vtk_rod(solution, scene);
+  const Tree line = parse(rod.rod), forces = parse(rod.forces);
+  for (const double radius : array(piece_of(line), "PointData", "radius")) BOOST_TEST(radius == 0.25);
+  const Tree& piece = piece_of(forces);
+  const auto strand = array(piece, "PointData", "strand"), partner = array(piece, "PointData", "partner_s"),
+             s = array(piece, "PointData", "s"), size = array(piece, "PointData", "size"),
+             place = array(piece, "Points", "Points"), touched = array(piece, "PointData", "touched");
+  BOOST_TEST_REQUIRE(strand.size() == 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Eigen::Map<const Eigen::Vector3d> r(&place[3 * i]), surface(&touched[3 * i]);
+    BOOST_TEST((r - surface).norm() == 0.25, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(partner[i] == (strand[i] == 1.0 ? -s[i] : s[i]));
+    if (strand[i] == 1.0) BOOST_TEST(size[i] == 0.125);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(the_cylinder_is_closed_and_leaves_room_for_the_rod) {
   auto scene = test::capstan_scene(T, phi);
   scene.rod_radius = 0.25;
@@ -112,14 +134,14 @@ BOOST_AUTO_TEST_CASE(walls_are_rectangles_beside_the_rod) {
   scene.has_cylinder = false;
   scene.walls = {{{0.0, 1.0, 0.0}, 0.05}, {{0.0, -1.0, 0.0}, 0.05}};
   const Eigen::AlignedBox3d box(Eigen::Vector3d(-0.5, -0.05, 0.0), Eigen::Vector3d(0.5, 0.05, 0.0));
-  const Tree file = parse(output::vtk_walls(obstacle::obstacles_of(scene), box));
+  const Tree file = parse(output::vtk_walls(obstacle::obstacles_of(scene), box, 0.01));
   const Tree& piece = piece_of(file);
   const auto r = array(piece, "Points", "Points"), normals = array(piece, "PointData", "Normals");
   BOOST_TEST_REQUIRE(count(piece, "Polys") == 2u);
   BOOST_TEST_REQUIRE(count(piece, "Points") == 8u);
   double least = 1.0, most = -1.0;
   for (std::size_t i = 0; i < r.size(); i += 3) {
-    BOOST_TEST(std::abs(std::abs(r[i + 1]) - 0.05) < 1e-15);
+    BOOST_TEST(std::abs(std::abs(r[i + 1]) - 0.06) < 1e-15);
     BOOST_TEST(std::abs(normals[i + 1]) == 1.0);
     least = std::min(least, r[i]), most = std::max(most, r[i]);
   }

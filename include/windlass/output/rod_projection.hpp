@@ -6,8 +6,8 @@
 
 #include "windlass/output/rod_curve.hpp"
 
-/// Parallel projection of a rod and its cylinder with the parts hidden by the cylinder told apart: gnuplot draws
-/// lines and surfaces in 3D without telling which is in front.
+/// Parallel projection of a rod and its cylinder with the parts hidden by the cylinder told apart: gnuplot
+/// draws lines and surfaces in 3D without telling which is in front.
 namespace windlass::output {
 
 /// Looking from direction `towards` (from the scene to the eye); right and up span the picture.
@@ -36,12 +36,18 @@ struct Drum {
 
   /// True when the drum stands between r and the eye.
   bool hides(const Eigen::Vector3d& r, const View& view) const;
+  /// True when a place outside the drum is farther from the eye than the axis beside it: to be drawn before
+  /// the drum.
+  bool covers(const Eigen::Vector3d& r, const View& view) const {
+    return view.towards.head<2>().dot(r.head<2>()) < 0.0 && r.z() > low && r.z() < high;
+  }
   /// Closed outline of the piece in the picture, and the rim that faces the eye.
   std::vector<Eigen::Vector2d> outline(const View& view) const;
   std::vector<Eigen::Vector2d> rim(const View& view, double z) const;
 };
 
 /// Height of the rod near the cylinder, with room to see its ends.
-Drum drum_for(const RodCurve& curve);
+/// @param rod_radius  [ρ]; the cylinder is that much slimmer than the one on which the centre line lies
+Drum drum_for(const RodCurve& curve, double rod_radius);
 
 }  // namespace windlass::output
