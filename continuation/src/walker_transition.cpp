@@ -30,7 +30,7 @@ void Walker::adapt() {
     EventSigns signs = state_.signs;
     settle(segment, *sample);
     state_.signs = std::move(signs);  // what only the new mesh makes negative is still to be passed
-    state_.last_ds = last_ds;  // the same point: the rates of events still run from the one before
+    state_.last_ds = last_ds;         // the same point: the rates of events still run from the one before
     state_.previous_events = std::move(previous_events);
     state_.mesh_changed = true;
     state_.previous_tangent = state_.tangent;

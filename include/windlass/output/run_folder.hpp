@@ -107,7 +107,7 @@ class RunWriter {
   std::size_t committed_ = 0;
   bool rows_stale_ = false;     ///< rows_ holds what branches.csv does not
   bool special_stale_ = false;  ///< special_points_ holds what special_points.json does not
-  bool started_ = false;     ///< run.json is on disk
+  bool started_ = false;        ///< run.json is on disk
   std::optional<double> save_every_;
   std::chrono::steady_clock::time_point last_commit_{}, last_checkpoint_{};
   std::chrono::duration<double> pause_{1.0};
