@@ -133,7 +133,7 @@ bool hardly_apart(const Profile& profile, int link) {
 /// inside a line F = a h³/15, so that |p₀| w⁴ = 0.96 F h³; beside a touch F = bℓ²/20 and |p_e| w² = 4.32 F ℓ. Nothing where
 /// no line carries it.
 std::optional<double> beyond_carried(const Profile& profile, int link, bool begins_at_mid) {
-  constexpr double shorter = 0.5;
+  constexpr double shorter = 0.6;
   int edges = 0, touches = 0;
   double force = 0.0;
   for (const Contact& c : profile.contacts) {

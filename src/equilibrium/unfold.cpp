@@ -21,6 +21,17 @@ ArcMesh spanning(const ArcMesh& right) {
   return out;
 }
 
+namespace {
+
+/// Does the image of the half solve the full chain? Where a shape turns at no cost (a planar strut whose ends meet) the full
+/// chain is singular and Newton's method cannot say so.
+bool is_state(RodProblem& problem, const Vector& y, const Vector& p) {
+  constexpr double rounding = 1e-10;  // of the residual; the half is solved to 1e-12 of its own
+  return problem.residual_norm(problem.residual(y, p)) <= rounding;
+}
+
+}  // namespace
+
 Started unfold(RodProblem& halved, const Vector& x, const Vector& p, int iterations) {
   // Through the recorded whole rod: sample the half, mirror it, and build the full chain on it.
   const chain::Profile half = halved.profile(x, p);
@@ -44,10 +55,14 @@ Started unfold(RodProblem& halved, const Vector& x, const Vector& p, int iterati
   for (std::size_t j = right.size(); j-- > 1;) s.push_back(-right[j]);
   s.insert(s.end(), right.begin() + (spanned ? 1 : 0), right.end());
   Vector y = chain::guess_state(problem->chain(), topology, problem->rod(), whole, s);
-  const int used = problem->polish(y, p);
-  if (used < 0) throw NoEquilibrium("Newton did not converge on the full chain from its symmetric half");
+  Vector polished = y;
+  const int used = problem->polish(polished, p);
+  if (used >= 0)
+    y = polished;
+  else if (!is_state(*problem, y, p))
+    throw NoEquilibrium("Newton did not converge on the full chain from its symmetric half");
   problem->error_estimate(y, p);
-  return {problem, y, p, iterations + used};
+  return {problem, y, p, iterations + std::max(used, 0)};
 }
 
 Started lift(RodProblem& planar, const Vector& x, const Vector& p, bool half) {
