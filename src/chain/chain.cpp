@@ -127,10 +127,10 @@ Chain::Numbering Chain::number(Purpose purpose) const {
     n.coordinate.push_back(n.size);
     n.size += static_cast<Eigen::Index>(kept(purpose, j).size());
     // In a variation a touch keeps its location as a direction of maximum; the edge of a line stays where it is, because
-    // moving it costs nothing to second order. The half-turn keeps a touch at s = 0, but in odd variations.
-    const bool located =
-        equilibrium ? locates(j)
-                    : joints_[j]->kind() == JointKind::touch && (locates(j) || purpose == Purpose::odd);
+    // moving it costs nothing to second order, as do touches of a line between strands. The half-turn keeps a touch at s = 0, but in odd variations.
+    const bool located = equilibrium ? locates(j)
+                                     : joints_[j]->kind() == JointKind::touch &&
+                                           (locates(j) || purpose == Purpose::odd) && !along_strand(j);
     n.location.push_back(located ? n.size++ : -1);
     n.constraints += located;
   }

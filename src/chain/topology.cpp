@@ -149,6 +149,12 @@ Chain::Gauges gauges(const RodKind& rod, const Topology& t) {
 
 }  // namespace
 
+double touch_place(int touch, int links) {
+  constexpr double even = 0.3;
+  const double part = static_cast<double>(touch) / links;
+  return even * part + (1.0 - even) * 0.5 * (1.0 - std::cos(M_PI * part));
+}
+
 bool Topology::contact() const { return mid_touch || stretches.size() > 1; }
 
 Topology unfolded(const Topology& t) {
@@ -177,20 +183,49 @@ Topology unfolded(const Topology& t) {
   return whole;
 }
 
+int Topology::partner(int joint) const {
+  const int strand = std::abs(seat(joint).strand);
+  if (strand == 0) return -1;
+  for (int k = 0; k < static_cast<int>(on.size()); ++k)
+    if (k != joint && std::abs(on[k].strand) == strand) return k;
+  return joint;
+}
+
+int Topology::beside(int link) const {
+  const int begin = partner(link), end = partner(link + 1);
+  if (begin < 0 || end < 0 || stretches[link] != Stretch::line) return -1;
+  const auto mirrored = [&](int joint, int other) {
+    return joint == other || seat(joint).strand != seat(other).strand;
+  };
+  // Strands side by side run the same way, images the other way.
+  const bool image = mirrored(link, begin);
+  if (image != mirrored(link + 1, end) || end != begin + (image ? -1 : 1)) return -1;
+  const int other = image ? end : begin;
+  return stretches[other] == Stretch::line ? other : -1;
+}
+
+Topology::Run Topology::run(int link) const {
+  const int count = static_cast<int>(stretches.size());
+  if (link < 0 || link >= count || beside(link) < 0) return {};
+  int first = link, last = link;
+  while (first > 0 && beside(first - 1) >= 0) --first;
+  while (last + 1 < count && beside(last + 1) >= 0) ++last;
+  return {first, last - first + 1};
+}
+
 std::vector<Coupling> Topology::couplings() const {
   std::vector<Coupling> out;
-  const int joints = static_cast<int>(on.size());
-  for (int j = 0; j < joints; ++j) {
-    const int strand = on[j].strand;
-    if (strand == 0) continue;
-    const auto partner = std::find_if(on.begin(), on.end(), [&](const Seat& seat) {
-      return &seat != &on[j] && std::abs(seat.strand) == std::abs(strand);
-    });
-    if (partner == on.end()) {
-      out.push_back({j, j, true});
-    } else if (const int k = static_cast<int>(partner - on.begin()); k > j) {
-      out.push_back({j, k, partner->strand != strand});
+  for (int j = 0; j < static_cast<int>(on.size()); ++j) {
+    const int other = partner(j);
+    if (other < j) continue;
+    Coupling c{j, other, other == j || on[other].strand != on[j].strand};
+    const Run before = run(j - 1), after = run(j);
+    c.along = before.count + after.count > 0;
+    if (before.count > 0 && after.count > 0 && !c.with_itself()) {
+      c.begin = before.first, c.end = before.first + before.count;
+      c.part = touch_place(j - c.begin, before.count);
     }
+    out.push_back(c);
   }
   return out;
 }
@@ -204,10 +239,16 @@ std::string Topology::text() const {
   };
   std::string text;
   for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool inside =
+        i > 0 && whole.beside(static_cast<int>(i)) >= 0 && whole.beside(static_cast<int>(i) - 1) >= 0;
+    if (inside) continue;
     const bool touch = i > 0 && (all[i] == Stretch::line) == (all[i - 1] == Stretch::line);
     const bool strand = i > 0 && whole.seat(static_cast<int>(i)).strand != 0;
     if (i > 0) text += !touch ? " " : strand ? " cross " : " " + named("touch", i) + " ";
-    text += all[i] == Stretch::line ? named(word(all[i]), i) : word(all[i]);
+    if (whole.beside(static_cast<int>(i)) >= 0)
+      text += "lines";
+    else
+      text += all[i] == Stretch::line ? named(word(all[i]), i) : word(all[i]);
   }
   return text;
 }

@@ -197,13 +197,14 @@ ContactEvent length_event(const Profile& profile, const Topology& topology, int 
       gap && std::count_if(profile.contacts.begin(), profile.contacts.end(), is_touch) == 2;
   const double stiffest = profile.material.stiffness.maxCoeff() / profile.material.bending_stiffness;
   const double shortest = piece.stretch == Stretch::tail   ? shortest_tail * stiffest
+                          : topology.run(i).count > 1      ? least_between_strands
                           : topology.beside_strand(i)      ? least_beside_strand
                           : between_touches                ? least_between_touches
                           : piece.stretch == Stretch::line ? least_under(profile, i)
                                                            : least_length;
   const double least = shortest * profile.unit_length;
   ContactEvent event{Kind::length, i, carried.value_or(length_of(piece) - least), piece.s(0)};
-  event.redrawn = carried.has_value();
+  event.redrawn = carried.has_value() || topology.run(i).count > 1;
   event.imminent = hardly_apart(profile, i);
   return event;
 }
@@ -216,6 +217,14 @@ ContactEvent reaction_event(const Profile& profile, const Contact& c) {
                      1.0 + reaction * std::abs(reaction) / (pressure * carried_under_strand), c.s};
   event.redrawn = true;
   return event;
+}
+
+/// Of a line between strands the touches inside may pull, as its pressure changes its sign, with what would open the strands by
+/// no more than they may be nearer elsewhere: a force F lifts both over the span h of its neighbours by Fh³/12B.
+double carried_pull(const Profile& profile, const Topology& topology, int joint) {
+  if (topology.run(joint - 1).count == 0 || topology.run(joint).count == 0) return 0.0;
+  const double h = 0.5 * (length_of(profile.pieces[joint - 1]) + length_of(profile.pieces[joint]));
+  return 12.0 * carried_between_strands * profile.material.bending_stiffness / (h * h * h);
 }
 
 /// Curvature at which a touch gives way, see `least_curvature`.
@@ -255,9 +264,11 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
   const std::vector<chain::Coupling> couplings = topology.couplings();
   for (const Contact& c : profile.contacts) {
     if (c.coupling >= 0 && c.joint != couplings[c.coupling].first) continue;  // one event for the two joints
-    events.push_back({Kind::force, c.joint, c.force, c.s});
+    events.push_back({Kind::force, c.joint,
+                      c.force + (c.coupling < 0 ? 0.0 : carried_pull(profile, topology, c.joint)), c.s});
     if (c.reaction) events.push_back(reaction_event(profile, c));
-    if (c.edge) continue;
+    // Of a line between strands g'' = 0.
+    if (c.edge || topology.run(c.joint).count + topology.run(c.joint - 1).count > 0) continue;
     const double bend = c.gap_curvature - least_curvature_at(profile, c);
     events.push_back({Kind::curvature, c.joint, about_to_meet(profile, c) ? 1.0 : bend, c.s});
   }
@@ -266,6 +277,10 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
     event.other = near.other;
     event.mirrored = near.mirrored;
     event.s_other = near.s_other;
+    if (topology.beside(near.link) == near.other && near.mirrored == topology.half) {
+      event.value = 1.0 + std::min(event.value, 0.0) / carried_between_strands;
+      event.redrawn = true;
+    }
     events.push_back(event);
   }
   return events;

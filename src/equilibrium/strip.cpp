@@ -79,7 +79,7 @@ bool Strip::collapse(int i) {
   if (i == 0 || i + 1 == static_cast<int>(parts.size())) return false;
   const bool line_before = parts[i - 1].kind == Stretch::line,
              line_after = parts[i + 1].kind == Stretch::line;
-  if (line_before && line_after) {
+  if (line_before && line_after && parts[i].kind != Stretch::line) {
     merge(i - 1, i + 1, Stretch::line);
     return true;
   }

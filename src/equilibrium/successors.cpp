@@ -195,6 +195,7 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
       return after_pressure(event, strip, profile.pieces[event.place]);
     case Kind::length:
       if (profile.pieces[event.place].stretch == Stretch::tail) return {end_of_rod(strip)};
+      if (const auto fewer = line_with_fewer_touches(topology, event.place, strip)) return {*fewer};
       return after_length(event.place, strip);
     case Kind::force:
       for (const int link : {event.place - 1, event.place})
@@ -211,6 +212,7 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
     case Kind::reaction:
       return strand_lifts(event.place, strip);
     case Kind::approach:
+      if (event.redrawn) return {*line_with_more_touches(topology, event.place, strip)};
       return strands_meet(event, strip);
   }
   return {};

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "checks.hpp"
@@ -5,10 +7,38 @@
 namespace windlass::verify {
 
 using Eigen::Vector3d;
+using equilibrium::ArcKind;
 using equilibrium::ArcRecord;
 using equilibrium::JointKind;
 using equilibrium::JointRecord;
 using equilibrium::Solution;
+
+namespace {
+
+/// A strand pulls a joint between two parts of a line off the obstacle by a point force: a beam of EI = 1, pressed by p beside,
+/// rises by (3/4)⁴ F⁴/72p³. Where that is no height at all the line stands for it.
+double judged(const JointRecord& joint, const ArcRecord& before, const ArcRecord& after,
+              const Scales& scales) {
+  if (joint.force >= 0.0 || before.kind != ArcKind::line || after.kind != ArcKind::line)
+    return joint.force / scales.force;
+  const double pressure = std::min(before.p(before.p.size() - 1), after.p(0));
+  const double height = std::pow(0.75 * joint.force, 4) / (72.0 * std::pow(pressure, 3));
+  return pressure > 0.0 && height < tight ? 0.0 : joint.force / scales.force;
+}
+
+/// Strands that touch along a line do so at places that divide it (see chain/coupling.hpp): there they need not be nearest. What
+/// counts is how much nearer they can be a neighbouring touch away. 1 elsewhere.
+double distance_that_counts(const Solution& solution, std::size_t k) {
+  const auto& joints = solution.joints;
+  const auto neighbours = [&](std::size_t a, std::size_t b) {
+    return joints[a].partner >= 0 && joints[b].partner >= 0 &&
+           std::abs(joints[a].partner - joints[b].partner) == 1;
+  };
+  if (!neighbours(k, k - 1) || !neighbours(k, k + 1)) return 1.0;
+  return std::max(joints[k + 1].s - joints[k].s, joints[k].s - joints[k - 1].s);
+}
+
+}  // namespace
 
 void check_joints(const Solution& solution, const scene::Scene& scene, const Scales& scales,
                   CheckList& list) {
@@ -19,7 +49,11 @@ void check_joints(const Solution& solution, const scene::Scene& scene, const Sca
     const JointRecord& joint = solution.joints[k];
     const bool in_contact = joint.kind == JointKind::touch || joint.kind == JointKind::edge;
     holding.add(std::abs(joint.holding) / scales.force);
-    if (in_contact) contact.add(joint.force / scales.force);
+    if (in_contact) {
+      const bool inside = k > 0 && k + 1 < solution.joints.size();
+      contact.add(inside ? judged(joint, solution.arcs[k - 1], solution.arcs[k], scales)
+                         : joint.force / scales.force);
+    }
     if (joint.partner >= 0) between.add(joint.strand_force / scales.force);
     if (k == 0 || k + 1 == solution.joints.size()) continue;
     const Section before = last_section(solution.arcs[k - 1]), after = first_section(solution.arcs[k]);
@@ -42,7 +76,7 @@ void check_joints(const Solution& solution, const scene::Scene& scene, const Sca
       jump += joint.strand_force * e;
       apart.add(std::abs((joint.r - other.r).norm() - 2.0 * scene.rod_radius));
       apart.add(std::abs(joint.strand_force - other.strand_force) / scales.force);
-      along.add(std::abs(e.dot(tangent(after))));
+      along.add(std::abs(e.dot(tangent(after))) * distance_that_counts(solution, k));
     }
     force.add(jump.norm() / scales.force);
   }
@@ -50,7 +84,9 @@ void check_joints(const Solution& solution, const scene::Scene& scene, const Sca
     list.at_least("strand_force", between.value(), -tight, "smallest force between strands, / max(1, T)");
     list.at_most("strand_contact", apart.value(), tight,
                  "distance of touching strands against 2 rod.radius, and their forces against each other");
-    list.at_most("strand_tangency", along.value(), tight, "slope to each other of strands that touch");
+    list.at_most("strand_tangency", along.value(), tight,
+                 "slope to each other of strands that touch; inside a line of theirs: times the distance to "
+                 "the next touch");
   }
   if (scene.self_contact && solution.self_distance)
     list.at_least("self_distance", *solution.self_distance - 2.0 * scene.rod_radius, -tight,
@@ -64,7 +100,9 @@ void check_joints(const Solution& solution, const scene::Scene& scene, const Sca
   list.at_most("holding", holding.value(), tight,
                "force that holds the rod against sliding along itself, / max(1, T): no equilibrium with it");
   if (!contact.any()) return;
-  list.at_least("point_force", contact.value(), -tight, "smallest contact point force, / max(1, T)");
+  list.at_least("point_force", contact.value(), -tight,
+                "smallest contact point force, / max(1, T), but for pulls that lift the rod off a line by "
+                "less than 1e-9");
   list.at_most("contact_position", surface.value(), tight,
                "distance of touches and edges from their obstacles");
   list.at_most("tangency", tangency.value(), tight, "slope to the obstacle at touches and edges");

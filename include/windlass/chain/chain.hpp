@@ -84,6 +84,10 @@ class Chain {
   const std::vector<Coupling>& couplings() const { return couplings_; }
   /// Of a joint, its place among the couplings; −1: none.
   int coupling_of(int joint) const { return coupling_of_[joint]; }
+  /// Does a joint touch along a line between strands?
+  bool along_strand(int joint) const {
+    return coupling_of_[joint] >= 0 && couplings_[coupling_of_[joint]].along;
+  }
   /// Force λ of a coupling.
   double strand_force(const VectorXd& x, int coupling) const { return x(strand_at_[coupling]); }
   double& strand_force(VectorXd& x, int coupling) const { return x(strand_at_[coupling]); }

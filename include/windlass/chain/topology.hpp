@@ -42,12 +42,26 @@ struct Topology {
   std::vector<Coupling> couplings() const;
   /// Does a link begin or end where strands touch?
   bool beside_strand(int link) const { return seat(link).strand != 0 || seat(link + 1).strand != 0; }
+  /// The other joint of a touch between strands; the joint itself where it touches its own image; −1: it touches no strand.
+  int partner(int joint) const;
+  /// The link that this one touches all along: both lie on an obstacle between touches that are next to each other on either
+  /// strand. It may be its own image. −1: none.
+  int beside(int link) const;
+  /// The links of the line between strands that a link belongs to, none where it is beside none.
+  struct Run {
+    int first = 0, count = 0;
+  };
+  Run run(int link) const;
   /// Whole rod, e.g. "tail touch gap line gap touch tail"; a contact on the second obstacle reads "touch:2", one with
   /// another strand "cross".
   std::string text() const;
   bool contact() const;
   bool operator==(const Topology& other) const;
 };
+
+/// Where a line between strands of `links` links has its touches, of its length: close to each other near the ends, where the
+/// pressure between strands changes fast.
+double touch_place(int touch, int links);
 
 /// The whole rod of a half chain.
 Topology unfolded(const Topology& half);

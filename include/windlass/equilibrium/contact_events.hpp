@@ -63,7 +63,12 @@ inline constexpr double carried_inside = 2.1e-10, carried_beside_touch = 5.8e-6;
 
 /// The same of the part of a strand's force that is normal to an obstacle, away from it, over the pressure beside it: F²/p
 /// [EI/ρ]. Two strands on a cylinder that are not parallel to its sections push each other a little off it.
-inline constexpr double carried_under_strand = 1e-6;
+inline constexpr double carried_under_strand = 4e-6;
+
+/// How much nearer than 2r strands may be between the touches of a line of theirs [ρ].
+inline constexpr double carried_between_strands = 5e-10;
+/// The longest and the shortest link of such a line, in units of Profile::unit_length: with fewer touches where one is shorter.
+inline constexpr double least_between_strands = 2e-3;
 
 struct ContactEvent {
   enum class Kind { pressure, suction, length, force, curvature, graze, buckling, approach, reaction };
