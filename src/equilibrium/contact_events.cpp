@@ -186,7 +186,29 @@ double least_under(const Profile& profile, int line) {
   return least;
 }
 
+/// How much nearer strands are between the touches inside a line of theirs, by the pressure p that those stand for: ph⁴/192B.
+double nearer_between(const Profile& profile, const Topology::Run& run) {
+  double most = 0.0;
+  for (const Contact& c : profile.contacts) {
+    if (c.joint <= run.first || c.joint >= run.first + run.count) continue;
+    const double h = 0.5 * (length_of(profile.pieces[c.joint - 1]) + length_of(profile.pieces[c.joint]));
+    most = std::max(most, std::abs(c.force) * h * h * h / (192.0 * profile.material.bending_stiffness));
+  }
+  return most;
+}
+
+/// A line between strands needs its touches, or has more than it needs.
+ContactEvent spare_touches(const Profile& profile, const Topology& topology, int i) {
+  const Topology::Run run = topology.run(i);
+  ContactEvent event{Kind::length, i, 1.0, profile.pieces[i].s(0)};
+  event.redrawn = true;
+  if (i == run.first)
+    event.value = nearer_between(profile, run) / (spare_between_strands * carried_between_strands) - 1.0;
+  return event;
+}
+
 ContactEvent length_event(const Profile& profile, const Topology& topology, int i) {
+  if (topology.run(i).count > 1) return spare_touches(profile, topology, i);
   const bool begins_at_mid = topology.half && i == 0 && !topology.mid_touch;
   const Piece& piece = profile.pieces[i];
   const bool gap = piece.stretch == Stretch::gap;
@@ -197,14 +219,13 @@ ContactEvent length_event(const Profile& profile, const Topology& topology, int 
       gap && std::count_if(profile.contacts.begin(), profile.contacts.end(), is_touch) == 2;
   const double stiffest = profile.material.stiffness.maxCoeff() / profile.material.bending_stiffness;
   const double shortest = piece.stretch == Stretch::tail   ? shortest_tail * stiffest
-                          : topology.run(i).count > 1      ? least_between_strands
                           : topology.beside_strand(i)      ? least_beside_strand
                           : between_touches                ? least_between_touches
                           : piece.stretch == Stretch::line ? least_under(profile, i)
                                                            : least_length;
   const double least = shortest * profile.unit_length;
   ContactEvent event{Kind::length, i, carried.value_or(length_of(piece) - least), piece.s(0)};
-  event.redrawn = carried.has_value() || topology.run(i).count > 1;
+  event.redrawn = carried.has_value();
   event.imminent = hardly_apart(profile, i);
   return event;
 }

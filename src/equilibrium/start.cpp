@@ -44,16 +44,31 @@ std::optional<Started> by_continuation(const scene::Scene& scene, bool spatial, 
   return reach(*from, scene, scene.load.tension, half, keys, failure);
 }
 
+/// A coil whose rod keeps off itself: thickened at a tension at which its turns lie apart, then tightened. Thickened under high
+/// tension it would go through a change of contact at every turn.
+std::optional<Started> thick_coil(const scene::Scene& scene, bool half, const std::vector<std::string>& keys,
+                                  std::string& failure) {
+  constexpr double loose_tension = 2.0, turns_side_by_side = 3.0 * M_PI;
+  const auto thickened = [&](const scene::Scene& at, bool as_half,
+                             const std::vector<std::string>& in) -> std::optional<Started> {
+    scene::Scene thin = at;
+    thin.self_contact = false;
+    const std::optional<Started> flat = followed_coil(thin, true, true, in, failure);
+    return flat ? thicken(*flat, at, as_half, in, failure) : std::nullopt;
+  };
+  const bool loosened = scene.load.tension > loose_tension && scene.load.angle > turns_side_by_side;
+  if (!loosened) return thickened(scene, half, keys);
+  scene::Scene loose = scene;
+  loose.load.tension = loose_tension;
+  const std::optional<Started> from = thickened(loose, true, {"load.tension"});
+  return from ? reach(*from, scene, scene.load.tension, half, keys, failure) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Started> followed_coil(const scene::Scene& scene, bool spatial, bool half,
                                      const std::vector<std::string>& keys, std::string& failure) {
-  if (spatial && scene.strand_radius() > 0.0) {
-    scene::Scene thin = scene;
-    thin.self_contact = false;
-    const std::optional<Started> flat = followed_coil(thin, true, true, keys, failure);
-    return flat ? std::optional(thicken(*flat, scene, half, keys)) : std::nullopt;
-  }
+  if (spatial && scene.strand_radius() > 0.0) return thick_coil(scene, half, keys, failure);
   Loads loads = loads_of(scene);
   if (scene.rod.infinite()) loads.half_length = 0.5 * loads.angle + 40.0 / std::sqrt(loads.tension);
   const Draft draft = closed_form_draft(loads);

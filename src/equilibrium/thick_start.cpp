@@ -104,8 +104,8 @@ Started as_thick(const Started& flat, const scene::Scene& scene, bool half,
 
 }  // namespace
 
-Started thicken(const Started& flat, const scene::Scene& scene, bool half,
-                const std::vector<std::string>& keys) {
+std::optional<Started> thicken(const Started& flat, const scene::Scene& scene, bool half,
+                               const std::vector<std::string>& keys, std::string& failure) {
   std::optional<Started> start;
   // As thick as Newton's method reaches at once: under high tension turns part by so little that they must be thinner.
   for (double radius = std::min(0.01, scene.rod_radius); !start && radius > 1e-5; radius *= 0.3) {
@@ -116,13 +116,14 @@ Started thicken(const Started& flat, const scene::Scene& scene, bool half,
     trial->newton_iterations += used;
     start = trial;
   }
-  if (!start)
-    throw NoEquilibrium(
-        "pressed apart where they cross, the strands of the flat rod would pull at each other");
+  if (!start) {
+    failure = "pressed apart where they cross, the strands of the flat rod would pull at each other";
+    return std::nullopt;
+  }
   start->x = start->problem->refine(start->x, start->p);
-  std::string failure;
-  if (auto reached = reach(*start, scene, scene.rod_radius, half, keys, failure)) return *reached;
-  throw NoEquilibrium("from the thin rod no thick one was reached: " + failure);
+  auto reached = reach(*start, scene, scene.rod_radius, half, keys, failure);
+  if (!reached) failure = "from the thin rod no thick one was reached: " + failure;
+  return reached;
 }
 
 }  // namespace windlass::equilibrium

@@ -67,8 +67,8 @@ inline constexpr double carried_under_strand = 4e-6;
 
 /// How much nearer than 2r strands may be between the touches of a line of theirs [ρ].
 inline constexpr double carried_between_strands = 5e-10;
-/// The longest and the shortest link of such a line, in units of Profile::unit_length: with fewer touches where one is shorter.
-inline constexpr double least_between_strands = 2e-3;
+/// With fewer touches where they are nearer by no more than this part of it, what a third fewer make five times as much.
+inline constexpr double spare_between_strands = 4e-3;
 
 struct ContactEvent {
   enum class Kind { pressure, suction, length, force, curvature, graze, buckling, approach, reaction };

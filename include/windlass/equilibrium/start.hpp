@@ -34,8 +34,8 @@ std::optional<Started> discovered_start(const scene::Scene& scene, bool spatial,
 /// The state of a flat thin rod (half chain) with its strands pressed apart to the scene's radius: its crossings become
 /// touches with its own image, and the radius grows through every event on the way. As it is where nothing crosses.
 /// @throws NoEquilibrium
-Started thicken(const Started& flat, const scene::Scene& scene, bool half,
-                const std::vector<std::string>& keys);
+std::optional<Started> thicken(const Started& flat, const scene::Scene& scene, bool half,
+                               const std::vector<std::string>& keys, std::string& failure);
 
 /// The planar state as a state of the Kirchhoff rod (half or full chain): equal up to discretisation.
 Started lift(RodProblem& planar, const Vector& x, const Vector& p, bool half);
