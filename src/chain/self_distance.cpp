@@ -310,10 +310,14 @@ std::vector<Approach> approaches(const Profile& profile, const Topology& topolog
     }
     out.push_back(near);
   };
+  std::vector<int> beside(links);
+  for (int i = 0; i < links; ++i) beside[i] = topology.beside(i);
   for (int i = 0; i < links; ++i)
     for (int j = 0; j <= i; ++j) {
-      add(i, j, false);
-      if (topology.half) add(i, j, true);
+      // Of two lines between strands a link is near the one beside it only.
+      const bool along = beside[i] >= 0 && beside[j] >= 0, faces = beside[i] == j;
+      if (!along || (faces && !topology.half)) add(i, j, false);
+      if (topology.half && (!along || faces)) add(i, j, true);
     }
   return out;
 }

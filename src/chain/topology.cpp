@@ -149,12 +149,6 @@ Chain::Gauges gauges(const RodKind& rod, const Topology& t) {
 
 }  // namespace
 
-double touch_place(int touch, int links) {
-  constexpr double even = 0.3;
-  const double part = static_cast<double>(touch) / links;
-  return even * part + (1.0 - even) * 0.5 * (1.0 - std::cos(M_PI * part));
-}
-
 bool Topology::contact() const { return mid_touch || stretches.size() > 1; }
 
 Topology unfolded(const Topology& t) {
@@ -165,6 +159,8 @@ Topology unfolded(const Topology& t) {
   whole.stretches.insert(whole.stretches.end(), t.stretches.begin() + skipped, t.stretches.end());
   if (t.on.empty()) return whole;
   whole.on.assign(t.on.rbegin(), t.on.rend() - 1);
+  for (Seat& seat : whole.on)
+    if (seat.part > 0.0) seat.part = 1.0 - seat.part;
   whole.on.insert(whole.on.end(), t.on.begin() + skipped, t.on.end());
   // Each contact between strands has an image; the two of a mirrored pair change partners, the one with its own image has
   // none. Of joints from −L/2 the left half's come first.
@@ -223,7 +219,7 @@ std::vector<Coupling> Topology::couplings() const {
     c.along = before.count + after.count > 0;
     if (before.count > 0 && after.count > 0 && !c.with_itself()) {
       c.begin = before.first, c.end = before.first + before.count;
-      c.part = touch_place(j - c.begin, before.count);
+      c.part = on[j].part;
     }
     out.push_back(c);
   }

@@ -256,13 +256,46 @@ double least_curvature_at(const Profile& profile, const Contact& c) {
   return least_curvature * std::max(c.force, 0.0) / std::sqrt(beside.n.col(0).norm());
 }
 
+/// Strands that come near each other. Those of a line of theirs count as one link: where it is nearest.
+std::vector<ContactEvent> approach_events(const Profile& profile, const Topology& topology) {
+  const int count = static_cast<int>(profile.pieces.size());
+  std::vector<int> beside(count), name(count);
+  for (int i = 0; i < count; ++i) {
+    beside[i] = topology.beside(i);
+    name[i] = beside[i] >= 0 && i > 0 && beside[i - 1] >= 0 ? name[i - 1] : i;
+  }
+  std::vector<ContactEvent> events;
+  for (const chain::Approach& near : chain::approaches(profile, topology)) {
+    ContactEvent event{Kind::approach, near.link, near.distance - 2.0 * profile.radius, near.s};
+    event.other = near.other;
+    event.mirrored = near.mirrored;
+    event.s_other = near.s_other;
+    event.named = name[near.link], event.named_other = name[near.other];
+    if (beside[near.link] == near.other && near.mirrored == topology.half) {
+      event.value = 1.0 + std::min(event.value, 0.0) / carried_between_strands;
+      event.redrawn = true;
+    }
+    const auto same = std::find_if(events.begin(), events.end(), [&](const ContactEvent& other) {
+      return other.named == event.named && other.named_other == event.named_other &&
+             other.mirrored == event.mirrored;
+    });
+    if (same == events.end())
+      events.push_back(event);
+    else if (event.value < same->value)
+      *same = event;
+  }
+  return events;
+}
+
 }  // namespace
 
 std::string ContactEvent::name() const {
   static const char* const words[] = {"pressure", "suction",  "length",   "force",   "curvature",
                                       "graze",    "buckling", "approach", "reaction"};
-  const std::string name = std::string(words[static_cast<int>(kind)]) + " " + std::to_string(place);
-  if (kind == Kind::approach) return name + " to " + std::to_string(other) + (mirrored ? "'" : "");
+  const std::string name =
+      std::string(words[static_cast<int>(kind)]) + " " + std::to_string(named < 0 ? place : named);
+  if (kind == Kind::approach)
+    return name + " to " + std::to_string(named < 0 ? other : named_other) + (mirrored ? "'" : "");
   return obstacle == 0 ? name : name + ":" + std::to_string(obstacle + 1);
 }
 
@@ -293,17 +326,8 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
     const double bend = c.gap_curvature - least_curvature_at(profile, c);
     events.push_back({Kind::curvature, c.joint, about_to_meet(profile, c) ? 1.0 : bend, c.s});
   }
-  for (const chain::Approach& near : chain::approaches(profile, topology)) {
-    ContactEvent event{Kind::approach, near.link, near.distance - 2.0 * profile.radius, near.s};
-    event.other = near.other;
-    event.mirrored = near.mirrored;
-    event.s_other = near.s_other;
-    if (topology.beside(near.link) == near.other && near.mirrored == topology.half) {
-      event.value = 1.0 + std::min(event.value, 0.0) / carried_between_strands;
-      event.redrawn = true;
-    }
-    events.push_back(event);
-  }
+  const std::vector<ContactEvent> near = approach_events(profile, topology);
+  events.insert(events.end(), near.begin(), near.end());
   return events;
 }
 

@@ -67,51 +67,12 @@ std::optional<Successor> touches_meet(int link, Strip strip) {
   return strip.successor();
 }
 
+}  // namespace
+
 int new_strand(const Strip& strip) {
   int most = 0;
   for (const chain::Seat& seat : strip.on) most = std::max(most, std::abs(seat.strand));
   return most + 1;
-}
-
-/// A line between strands with another number of links.
-Successor laid_anew(const chain::Topology& topology, Strip strip, int link, int links) {
-  const int other = topology.beside(link);
-  const chain::Topology::Run runs[] = {topology.run(link), topology.run(other)};
-  const bool own_image = runs[0].first == runs[1].first;
-  const bool mirrored =
-      topology.half && (own_image || strip.on[runs[0].first].strand != strip.on[runs[1].first].strand);
-  const int fresh = new_strand(strip);
-  const auto lay = [&](const chain::Topology::Run& run, bool image) {
-    const double begin = strip.s[run.first], length = strip.s[run.first + run.count] - begin;
-    strip.merge(run.first, run.first + run.count - 1, Stretch::line);
-    for (int k = links - 1; k > 0; --k) {
-      const int number = own_image ? std::min(k, links - k) : image && mirrored ? links - k : k;
-      const bool second = own_image ? 2 * k > links : image && mirrored;
-      const int strand = second ? -(fresh + number) : fresh + number;
-      strip.split(run.first, begin + length * chain::touch_place(k, links), Stretch::line, Stretch::line,
-                  chain::Seat{strip.on[run.first].obstacle, strand});
-    }
-  };
-  const int late = runs[0].first < runs[1].first ? 1 : 0;  // what is cut first must not move what follows
-  lay(runs[late], late == 1);
-  if (!own_image) lay(runs[1 - late], late == 0);
-  return strip.successor();
-}
-
-}  // namespace
-
-std::optional<Successor> line_with_fewer_touches(const chain::Topology& topology, int link,
-                                                 const Strip& strip) {
-  const int links = topology.run(link).count;
-  if (links < 2) return std::nullopt;
-  return laid_anew(topology, strip, link, links <= 4 ? links / 2 : 2 * links / 3);
-}
-
-std::optional<Successor> line_with_more_touches(const chain::Topology& topology, int link,
-                                                const Strip& strip) {
-  const int links = topology.run(link).count;
-  if (links == 0) return std::nullopt;
-  return laid_anew(topology, strip, link, links < 4 ? 2 * links : 3 * links / 2);
 }
 
 std::optional<Successor> after_length_beside_strand(int link, const Strip& strip) {

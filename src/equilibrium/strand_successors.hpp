@@ -8,11 +8,15 @@
 /// What follows an event at a touch of the rod with itself.
 namespace windlass::equilibrium {
 
-/// A line between strands that `link` belongs to, with half or twice as many links; nothing where there is none, or no touch
-/// inside it.
-std::optional<Successor> line_with_fewer_touches(const chain::Topology& topology, int link,
+/// A mark that no touch has yet, see chain::Seat.
+int new_strand(const Strip& strip);
+
+/// A line between strands that `link` belongs to, with fewer or more touches; nothing where there is none, or no touch inside.
+std::optional<Successor> line_with_fewer_touches(const chain::Profile& profile,
+                                                 const chain::Topology& topology, int link,
                                                  const Strip& strip);
-std::optional<Successor> line_with_more_touches(const chain::Topology& topology, int link,
+std::optional<Successor> line_with_more_touches(const chain::Profile& profile,
+                                                const chain::Topology& topology, int link,
                                                 const Strip& strip);
 
 /// An arc beside such a touch has no length left: two touches meet or pass each other, or one passes the edge of a line.

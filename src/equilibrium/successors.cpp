@@ -195,7 +195,7 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
       return after_pressure(event, strip, profile.pieces[event.place]);
     case Kind::length:
       if (profile.pieces[event.place].stretch == Stretch::tail) return {end_of_rod(strip)};
-      if (const auto fewer = line_with_fewer_touches(topology, event.place, strip)) return {*fewer};
+      if (const auto fewer = line_with_fewer_touches(profile, topology, event.place, strip)) return {*fewer};
       return after_length(event.place, strip);
     case Kind::force:
       for (const int link : {event.place - 1, event.place})
@@ -212,7 +212,7 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
     case Kind::reaction:
       return strand_lifts(event.place, strip);
     case Kind::approach:
-      if (event.redrawn) return {*line_with_more_touches(topology, event.place, strip)};
+      if (event.redrawn) return {*line_with_more_touches(profile, topology, event.place, strip)};
       return strands_meet(event, strip);
   }
   return {};
@@ -229,6 +229,7 @@ Successor mirrored(const Successor& next, bool right_changed, int links) {
     const int joint = right_changed ? k : count - k;
     chain::Seat out = next.topology.seat(joint);
     if (image) out.strand = image_strand(next, joint);
+    if (image && out.part > 0.0) out.part = 1.0 - out.part;
     return out;
   };
   constexpr double middle = 1e-9;

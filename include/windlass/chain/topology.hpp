@@ -21,6 +21,8 @@ struct Seat {
   /// 0: no strand. Two joints with the same size of it touch; with opposite signs the first touches the half-turn's image of
   /// the second; a joint alone with it touches its own image.
   int strand = 0;
+  /// Inside a line between strands: where between its ends this touch is (chain/coupling.hpp).
+  double part = 0.0;
   bool operator==(const Seat& other) const = default;
 };
 
@@ -58,10 +60,6 @@ struct Topology {
   bool contact() const;
   bool operator==(const Topology& other) const;
 };
-
-/// Where a line between strands of `links` links has its touches, of its length: close to each other near the ends, where the
-/// pressure between strands changes fast.
-double touch_place(int touch, int links);
 
 /// The whole rod of a half chain.
 Topology unfolded(const Topology& half);

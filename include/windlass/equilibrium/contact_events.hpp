@@ -66,24 +66,25 @@ inline constexpr double carried_inside = 2.1e-10, carried_beside_touch = 5.8e-6;
 inline constexpr double carried_under_strand = 4e-6;
 
 /// How much nearer than 2r strands may be between the touches of a line of theirs [ρ].
-inline constexpr double carried_between_strands = 5e-10;
-/// With fewer touches where they are nearer by no more than this part of it, what a third fewer make five times as much.
-inline constexpr double spare_between_strands = 4e-3;
+inline constexpr double carried_between_strands = 8e-10;
+/// With fewer touches where they are nearer by no more than this part of it.
+inline constexpr double spare_between_strands = 1e-2;
 
 struct ContactEvent {
   enum class Kind { pressure, suction, length, force, curvature, graze, buckling, approach, reaction };
   Kind kind = Kind::force;
   int place = 0;  ///< link (pressure, suction, length, graze, buckling) or joint (force, curvature)
   double value = 0.0;
-  double s = 0.0;               ///< where along the rod
-  double from = 0.0, to = 0.0;  ///< pressure, suction: the stretch of negative pressure
-  int obstacle = 0;             ///< graze: the one that the rod comes near
-  int other = -1;               ///< approach: the link that `place` comes near
-  bool mirrored = false;        ///< approach: it is the half-turn's image of that
-  double s_other = 0.0;         ///< approach: where along the other
-  bool imminent = false;        ///< length of a gap so short that its two touches can hardly be told apart
-  bool passes = false;          ///< the same equations hold on both sides
-  bool redrawn = false;         ///< the same state follows, a gap as an arc or carried by its line
+  double s = 0.0;                    ///< where along the rod
+  double from = 0.0, to = 0.0;       ///< pressure, suction: the stretch of negative pressure
+  int obstacle = 0;                  ///< graze: the one that the rod comes near
+  int other = -1;                    ///< approach: the link that `place` comes near
+  bool mirrored = false;             ///< approach: it is the half-turn's image of that
+  int named = -1, named_other = -1;  ///< approach: the links it is called by, where not these
+  double s_other = 0.0;              ///< approach: where along the other
+  bool imminent = false;  ///< length of a gap so short that its two touches can hardly be told apart
+  bool passes = false;    ///< the same equations hold on both sides
+  bool redrawn = false;   ///< the same state follows, a gap as an arc or carried by its line
   std::string name() const;
 };
 
