@@ -48,8 +48,8 @@ std::optional<std::string> vanishing_with(const chain::Profile& shape, const Top
 /// From a state whose arc about s has nearly vanished to the one where it does, the event itself. In the topology without
 /// the arc that is a zero of the curvature of the touch at s, or of the pressure there.
 /// @returns the precision of p(0), nothing if there is no such zero near
-std::optional<double> locate_from_beyond(Entry& entry, double s) {
-  std::optional<std::string> name;  // chosen once: on the way to the event it moves
+/// @param name  of what vanishes; not given: chosen once, for on the way to the event it moves
+std::optional<double> locate_from_beyond(Entry& entry, double s, std::optional<std::string> name = {}) {
   const auto value_at = [&](Entry& at) -> std::optional<double> {
     if (at.problem->polish(at.x, at.p, 18) < 0) return std::nullopt;
     const chain::Profile shape = at.problem->profile(at.x, at.p);
@@ -259,6 +259,14 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, i
   return std::nullopt;
 }
 
+/// The force of the touch between strands that is new in a topology.
+std::string new_touch_force(const Topology& topology) {
+  int newest = 0;
+  for (int j = 0; j < static_cast<int>(topology.on.size()); ++j)
+    if (std::abs(topology.on[j].strand) > std::abs(topology.on[newest].strand)) newest = j;
+  return "force " + std::to_string(std::min(newest, topology.partner(newest)));
+}
+
 /// Solves for the successor of an event. @param precision  set where the state found is the event itself
 /// @param becomes_touch  a line on a plane has no length left
 std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const Successor& next,
@@ -270,6 +278,15 @@ std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const 
                         (event.kind == Kind::curvature && next.opened.empty());
   if (vanishes && tried([&] {
         const auto found = locate_from_beyond(exact, event.s + 0.5 * least_length * unit);
+        if (found) precision = *found;
+        return found && holds(exact);
+      }))
+    return exact;
+  // Where strands meet the force of the new touch says better than their distance between samples.
+  const bool meets = event.kind == Kind::approach && !event.redrawn;
+  exact = guess;
+  if (meets && tried([&] {
+        const auto found = locate_from_beyond(exact, event.s, new_touch_force(next.topology));
         if (found) precision = *found;
         return found && holds(exact);
       }))
