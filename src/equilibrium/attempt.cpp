@@ -81,9 +81,9 @@ std::optional<Started> reach(const Started& from, const scene::Scene& scene, dou
                       "the cylinder at {:.6g}",
                       from.problem->keys().front(), given(goal), given(from.p(0)), given(reached)));
     if (walker.end().kind != continuation::End::Kind::target) {
-      failure =
-          fmt::format("followed from {} = {:g}, the branch ends at {:g}: {}", from.problem->keys().front(),
-                      given(from.p(0)), given(reached), beyond.empty() ? walker.end().reason : beyond);
+      failure = fmt::format("followed from {} = {:g}, the branch ends at {:g}: {}",
+                            from.problem->keys().front(), given(from.p(0)), given(reached),
+                            beyond.empty() ? walker.end().reason : beyond + " (" + walker.end().reason + ")");
       return std::nullopt;
     }
     last = walker.problem();

@@ -112,7 +112,7 @@ bool extrapolate(Entry& touch, double p) {
   constexpr double nearest = 1e-4;  // of p: rounding is amplified by its inverse, the error is (8e-4)⁴
   const double distance = std::copysign(nearest * std::abs(p), touch.p(0) - p);
   std::array<Vector, levels> x;
-  for (int k = 0; k < levels; ++k) {
+  for (int k = levels; k-- > 0;) {  // from where the equations are far from singular
     touch.p(0) = p + distance * (1 << k);
     if (touch.problem->polish(touch.x, touch.p, 18) < 0) return false;
     x[k] = touch.x;
