@@ -46,7 +46,8 @@ std::optional<SmallEigenvalues> small_eigenvalues(Problem& problem, const Vector
   }
   const Matrix image = inverse(basis);
   if (!image.allFinite()) return std::nullopt;
-  const Eigen::EigenSolver<Matrix> solver(basis.transpose() * image);
+  const Matrix projected = basis.transpose() * image;
+  const Eigen::EigenSolver<Matrix> solver(projected);
   if (solver.info() != Eigen::Success) return std::nullopt;
   SmallEigenvalues small{Vector(m), Matrix(n, m), basis};
   Eigen::Index found = 0;
