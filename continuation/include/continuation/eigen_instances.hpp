@@ -1,7 +1,8 @@
-// The templates of Eigen for matrices of doubles that take long to compile: most of the time of a file that multiplied
-// or factored a matrix went into compiling the same few of them once more. Declared here, in the precompiled headers of
-// whatever links this library; defined by eigen_instances.cpp, which includes this file once more, hence no guard.
-// Without it everything works as well. Only for code compiled for the same processor as this library.
+// The templates of Eigen for matrices of doubles that take long to compile: most of the time of a file that
+// multiplied or factored a matrix went into compiling the same few of them once more. Declared here, in the
+// precompiled headers of whatever links this library; defined by eigen_instances.cpp, which includes this file
+// once more, hence no guard. Without it everything works as well. Only for code compiled for the same processor
+// as this library.
 #include <Eigen/Dense>
 
 #ifndef INSTANCE_OF_EIGEN
