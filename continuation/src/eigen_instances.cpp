@@ -1,2 +1,2 @@
-#define INSTANCE_OF_EIGEN template  // defines what the header, first included before this line, declares
+#define INSTANCE_OF_EIGEN template  // declared by the precompiled header, defined here
 #include "continuation/eigen_instances.hpp"
