@@ -6,7 +6,7 @@
 namespace continuation {
 namespace {
 
-Matrix orthonormal(const Matrix& columns) {
+Matrix orthonormal_basis(const Matrix& columns) {
   return Eigen::HouseholderQR<Matrix>(columns).householderQ() *
          Matrix::Identity(columns.rows(), columns.cols());
 }
@@ -27,7 +27,7 @@ std::optional<SmallEigenvalues> small_eigenvalues(Problem& problem, const Vector
       for (Eigen::Index i = 0; i < n; ++i)
         basis(i, j) = std::cos(1.0 + 2.399963229728653 * static_cast<double>(i) +
                                1.7 * static_cast<double>(j * (i + 1)));
-    basis = orthonormal(basis);
+    basis = orthonormal_basis(basis);
   }
   // J⁻¹f from [J F_p; cᵀ d] (x, y) = (f, 0), with J⁻¹F_p = −t_x / t_p.
   const auto inverse = [&](const Matrix& columns) {
@@ -42,11 +42,12 @@ std::optional<SmallEigenvalues> small_eigenvalues(Problem& problem, const Vector
   for (int pass = 0; pass < passes; ++pass) {
     const Matrix image = inverse(basis);
     if (!image.allFinite()) return std::nullopt;
-    basis = orthonormal(image);
+    basis = orthonormal_basis(image);
   }
   const Matrix image = inverse(basis);
   if (!image.allFinite()) return std::nullopt;
-  const Eigen::EigenSolver<Matrix> solver(basis.transpose() * image);
+  const Matrix projected = basis.transpose() * image;
+  const Eigen::EigenSolver<Matrix> solver(projected);
   if (solver.info() != Eigen::Success) return std::nullopt;
   SmallEigenvalues small{Vector(m), Matrix(n, m), basis};
   Eigen::Index found = 0;

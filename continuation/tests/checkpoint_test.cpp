@@ -95,7 +95,7 @@ void check_every_rest(const Case& of) {
   }
 }
 
-Options between(double lower, double upper) {
+Options coarse_between(double lower, double upper) {
   Options options;
   options.lower = lower;
   options.upper = upper;
@@ -111,7 +111,7 @@ Case two_pitchforks() {
     return vector({-p[0] * x[0] + std::pow(x[0], 3), -(x[0] * x[0] - 0.5) * x[1] + std::pow(x[1], 3)});
   });
   problem->fingerprint_of = sizes;
-  return {{problem}, vector({0.0, 0.0}), vector({-1.0}), between(-2.0, 1.0), {}};
+  return {{problem}, vector({0.0, 0.0}), vector({-1.0}), coarse_between(-2.0, 1.0), {}};
 }
 
 BOOST_AUTO_TEST_SUITE(checkpoints)
@@ -129,12 +129,12 @@ BOOST_AUTO_TEST_CASE(a_branch_that_joins_another) {
   // x (x² - p (1 - p)) = 0: pitchforks at p = 0 and p = 1 joined by a closed loop.
   auto problem = scalar([](double x, const Vector& p) { return x * (x * x - p[0] * (1.0 - p[0])); });
   problem->fingerprint_of = sizes;
-  check_every_rest({{problem}, vector({0.0}), vector({-1.0}), between(-2.0, 2.0), {}});
+  check_every_rest({{problem}, vector({0.0}), vector({-1.0}), coarse_between(-2.0, 2.0), {}});
 }
 
 BOOST_AUTO_TEST_CASE(folds_and_a_closed_curve) {
   const auto circle = scalar([](double x, const Vector& p) { return x * x + p[0] * p[0] - 1.0; });
-  check_every_rest({{circle}, vector({0.6}), vector({0.8}), between(-2.0, 2.0), {}});
+  check_every_rest({{circle}, vector({0.6}), vector({0.8}), coarse_between(-2.0, 2.0), {}});
 }
 
 BOOST_AUTO_TEST_CASE(a_branch_lost_at_an_edge) {
@@ -142,7 +142,7 @@ BOOST_AUTO_TEST_CASE(a_branch_lost_at_an_edge) {
     if (x > 0.5) throw std::domain_error("x too large");
     return x - p[0] * p[0];
   });
-  check_every_rest({{edge}, vector({0.0}), vector({0.0}), between(-0.1, 2.0), {}});
+  check_every_rest({{edge}, vector({0.0}), vector({0.0}), coarse_between(-0.1, 2.0), {}});
 }
 
 BOOST_AUTO_TEST_CASE(events_and_adaptation_change_the_problem) {
@@ -169,7 +169,7 @@ BOOST_AUTO_TEST_CASE(events_and_adaptation_change_the_problem) {
     self.set_size(3);
     return Vector::Constant(3, x[0]);
   };
-  check_every_rest({{before, after, adapted}, vector({0.5}), vector({0.125}), between(0.1, 4.0), {}});
+  check_every_rest({{before, after, adapted}, vector({0.5}), vector({0.125}), coarse_between(0.1, 4.0), {}});
 }
 
 BOOST_AUTO_TEST_CASE(a_stopped_diagram_goes_on) {

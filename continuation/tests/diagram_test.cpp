@@ -11,7 +11,7 @@ namespace {
 using namespace continuation;
 using namespace continuation::testing;
 
-Options between(double lower, double upper) {
+Options bounded(double lower, double upper) {
   Options options;
   options.lower = lower;
   options.upper = upper;
@@ -44,9 +44,9 @@ BOOST_AUTO_TEST_SUITE(switching)
 
 BOOST_AUTO_TEST_CASE(pitchfork_has_two_arms_that_are_mirror_images) {
   auto problem = pitchfork();
-  Walker walker(problem, vector({0.0}), vector({-1.0}), between(-2.0, 1.0));
+  Walker walker(problem, vector({0.0}), vector({-1.0}), bounded(-2.0, 1.0));
   const Point point = only_branch_point(walker);
-  const Arms named_once = switch_branch(point, between(-2.0, 1.0));
+  const Arms named_once = switch_branch(point, bounded(-2.0, 1.0));
   BOOST_REQUIRE_EQUAL(named_once.arms.size(), 1u);
   BOOST_TEST(named_once.arms[0].count == 2);
   BOOST_TEST(named_once.failures.empty());
@@ -55,7 +55,7 @@ BOOST_AUTO_TEST_CASE(pitchfork_has_two_arms_that_are_mirror_images) {
   auto other = pitchfork();
   other->fingerprint_of = {};
   plain.problem = other;
-  const Arms both = switch_branch(plain, between(-2.0, 1.0));
+  const Arms both = switch_branch(plain, bounded(-2.0, 1.0));
   BOOST_REQUIRE_EQUAL(both.arms.size(), 2u);
   for (const Arm& arm : both.arms) {
     BOOST_TEST(std::abs(arm.x[0] * arm.x[0] - arm.p[0]) < 1e-10);
@@ -70,9 +70,9 @@ BOOST_AUTO_TEST_CASE(transcritical_other_branch) {
     const double u = x - std::sin(p[0]);
     return u * (p[0] - 0.4 + u);
   });
-  Walker walker(problem, vector({std::sin(-0.5)}), vector({-0.5}), between(-1.0, 1.2));
+  Walker walker(problem, vector({std::sin(-0.5)}), vector({-0.5}), bounded(-1.0, 1.2));
   const Point point = only_branch_point(walker);
-  const Arms arms = switch_branch(point, between(-1.0, 1.2));
+  const Arms arms = switch_branch(point, bounded(-1.0, 1.2));
   BOOST_REQUIRE_EQUAL(arms.arms.size(), 2u);
   for (const Arm& arm : arms.arms)
     BOOST_TEST(std::abs(arm.x[0] - std::sin(arm.p[0]) + arm.p[0] - 0.4) < 1e-10);
@@ -92,10 +92,10 @@ BOOST_AUTO_TEST_CASE(double_kernel_with_the_symmetry_of_the_square) {
   problem->fingerprint_of = [](const Vector& x, const Vector&) {
     return vector({x.cwiseAbs().maxCoeff(), x.cwiseAbs().minCoeff()});
   };
-  Walker walker(problem, vector({0.0, 0.0}), vector({-1.0}), between(-2.0, 1.0));
+  Walker walker(problem, vector({0.0, 0.0}), vector({-1.0}), bounded(-2.0, 1.0));
   const Point point = only_branch_point(walker);
   BOOST_TEST(point.multiplicity == 2);
-  const Arms arms = switch_branch(point, between(-2.0, 1.0));
+  const Arms arms = switch_branch(point, bounded(-2.0, 1.0));
   BOOST_REQUIRE_EQUAL(arms.arms.size(), 2u);  // one kind along the axes, one along the diagonals
   BOOST_TEST(arms.arms[0].count == 4);
   BOOST_TEST(arms.arms[1].count == 4);
@@ -109,7 +109,7 @@ BOOST_AUTO_TEST_SUITE(diagrams)
 
 BOOST_AUTO_TEST_CASE(pitchfork_diagram) {
   Recorder recorder;
-  const Diagram diagram = trace_diagram(pitchfork(), vector({0.0}), vector({-0.5}), between(-1.0, 1.0),
+  const Diagram diagram = trace_diagram(pitchfork(), vector({0.0}), vector({-0.5}), bounded(-1.0, 1.0),
                                         {true, true, 50, 3}, recorder);
   BOOST_TEST(diagram.branches.size() == 3u);  // right, left, one arm for both
   BOOST_TEST(diagram.branches[2].count == 2);
@@ -130,7 +130,7 @@ BOOST_AUTO_TEST_CASE(loop_between_two_branch_points_is_walked_once) {
   problem->fingerprint_of = [](const Vector& x, const Vector&) { return Vector(x.cwiseAbs()); };
   Recorder recorder;
   const Diagram diagram =
-      trace_diagram(problem, vector({0.0}), vector({-1.0}), between(-2.0, 2.0), {}, recorder);
+      trace_diagram(problem, vector({0.0}), vector({-1.0}), bounded(-2.0, 2.0), {}, recorder);
   BOOST_TEST(diagram.specials.size() == 2u);
   BOOST_REQUIRE_EQUAL(diagram.branches.size(), 2u);
   BOOST_TEST((diagram.branches[1].end.kind == End::Kind::joined));
@@ -149,7 +149,7 @@ BOOST_AUTO_TEST_CASE(secondary_branching_limits_and_stopping) {
   };
   Recorder recorder;
   const Diagram diagram =
-      trace_diagram(make(), vector({0.0, 0.0}), vector({-1.0}), between(-2.0, 1.0), {}, recorder);
+      trace_diagram(make(), vector({0.0, 0.0}), vector({-1.0}), bounded(-2.0, 1.0), {}, recorder);
   BOOST_TEST(diagram.branches.size() == 3u);
   BOOST_TEST(diagram.branches[2].depth == 2);
   BOOST_REQUIRE_EQUAL(diagram.specials.size(), 2u);
@@ -158,7 +158,7 @@ BOOST_AUTO_TEST_CASE(secondary_branching_limits_and_stopping) {
   BOOST_TEST(diagram.lost.empty());
 
   Recorder shallow;
-  const Diagram limited = trace_diagram(make(), vector({0.0, 0.0}), vector({-1.0}), between(-2.0, 1.0),
+  const Diagram limited = trace_diagram(make(), vector({0.0, 0.0}), vector({-1.0}), bounded(-2.0, 1.0),
                                         {false, true, 50, 1}, shallow);
   BOOST_TEST(limited.branches.size() == 2u);
   BOOST_REQUIRE_EQUAL(limited.lost.size(), 1u);
@@ -166,14 +166,14 @@ BOOST_AUTO_TEST_CASE(secondary_branching_limits_and_stopping) {
 
   Recorder few;
   const Diagram narrow =
-      trace_diagram(make(), vector({0.0, 0.0}), vector({-1.0}), between(-2.0, 1.0), {false, true, 1, 3}, few);
+      trace_diagram(make(), vector({0.0, 0.0}), vector({-1.0}), bounded(-2.0, 1.0), {false, true, 1, 3}, few);
   BOOST_TEST(narrow.branches.size() == 1u);
   BOOST_TEST(narrow.lost.size() == 1u);
 
   Recorder impatient;
   impatient.stop_after = 5;
   const Diagram stopped =
-      trace_diagram(make(), vector({0.0, 0.0}), vector({-1.0}), between(-2.0, 1.0), {}, impatient);
+      trace_diagram(make(), vector({0.0, 0.0}), vector({-1.0}), bounded(-2.0, 1.0), {}, impatient);
   BOOST_TEST(stopped.stopped);
   BOOST_TEST(impatient.points == 5);
   BOOST_TEST(impatient.ends == 1);
@@ -186,7 +186,7 @@ BOOST_AUTO_TEST_CASE(lost_branches_are_recorded) {
   });
   Recorder recorder;
   const Diagram diagram =
-      trace_diagram(problem, vector({0.0}), vector({-1.0}), between(-2.0, 1.0), {}, recorder);
+      trace_diagram(problem, vector({0.0}), vector({-1.0}), bounded(-2.0, 1.0), {}, recorder);
   BOOST_TEST(diagram.branches.size() == 3u);
   BOOST_REQUIRE_EQUAL(diagram.lost.size(), 2u);
   BOOST_TEST(diagram.lost[0].find("x too large") != std::string::npos);

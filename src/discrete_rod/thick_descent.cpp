@@ -17,7 +17,7 @@ namespace {
 
 using TaoHandle = petsc::Handle<Tao, TaoDestroy>;
 
-PetscErrorCode objective(Tao, Vec in, PetscReal* value, void* context) {
+PetscErrorCode thick_objective(Tao, Vec in, PetscReal* value, void* context) {
   return guard([&] {
     VectorXd x;
     petsc::copy(in, x);
@@ -25,7 +25,7 @@ PetscErrorCode objective(Tao, Vec in, PetscReal* value, void* context) {
   });
 }
 
-PetscErrorCode slope(Tao, Vec in, Vec out, void* context) {
+PetscErrorCode thick_slope(Tao, Vec in, Vec out, void* context) {
   return guard([&] {
     VectorXd x;
     petsc::copy(in, x);
@@ -56,7 +56,7 @@ petsc::MatHandle growing(const Sparse& matrix) {
   return out;
 }
 
-PetscErrorCode curvature(Tao, Vec in, Mat matrix, Mat preconditioner, void* context) {
+PetscErrorCode thick_curvature(Tao, Vec in, Mat matrix, Mat preconditioner, void* context) {
   return guard([&] {
     VectorXd x;
     petsc::copy(in, x);
@@ -83,9 +83,9 @@ int descend(ThickEnergy& energy, double tolerance, VectorXd& x) {
   check(TaoSetType(tao, TAONTR));
   petsc::copy(x, solution);
   check(TaoSetSolution(tao, solution));
-  check(TaoSetObjective(tao, objective, &energy));
-  check(TaoSetGradient(tao, nullptr, slope, &energy));
-  check(TaoSetHessian(tao, matrix, preconditioner, curvature, &energy));
+  check(TaoSetObjective(tao, thick_objective, &energy));
+  check(TaoSetGradient(tao, nullptr, thick_slope, &energy));
+  check(TaoSetHessian(tao, matrix, preconditioner, thick_curvature, &energy));
   check(TaoSetTolerances(tao, tolerance, 0.0, 0.0));
   constexpr int most = 300;
   check(TaoSetMaximumIterations(tao, most));

@@ -72,7 +72,7 @@ std::string panel(bool slopes) {
                     slopes ? 3 : 2);
 }
 
-std::vector<Statement> statements(const Study& study) {
+std::vector<Statement> force_statements(const Study& study) {
   std::vector<Statement> list;
   double worst = 0.0;
   for (const Angle& angle : angles) worst = std::max(worst, largest_difference(study.at(angle.run)));
@@ -134,7 +134,7 @@ Figure contact_force(const Study& study, const Canvas& canvas) {
           "Crosses: where the "
           "line contact ends. In (b) the horizontal lines are α = 1 and 1.6.",
           {"4pi", "2pi", "pi", "half-pi", "quarter-pi"},
-          statements(study)};
+          force_statements(study)};
 }
 
 }  // namespace windlass::figures

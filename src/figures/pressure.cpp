@@ -15,7 +15,7 @@ using Verdict = Statement::Verdict;
 
 namespace {
 
-std::string panel(const ContactCell& cell, int row, int column) {
+std::string pressure_panel(const ContactCell& cell, int row, int column) {
   const double left = column == 0 ? 0.08 : 0.56, top = 0.93 - 0.31 * row;
   const equilibrium::Solution& state = cell.state;
   std::string text = output::margins(left, left + 0.35, top - 0.225, top) + contact_heading(cell);
@@ -40,7 +40,7 @@ std::string panel(const ContactCell& cell, int row, int column) {
   return text + "  unset label 60\n  unset label 61\n";
 }
 
-std::vector<Statement> statements(const std::vector<ContactCell>& cells) {
+std::vector<Statement> pressure_statements(const std::vector<ContactCell>& cells) {
   const ContactCell &loose_pi = cells[0], &loose_turn = cells[1], &middle_turn = cells[3],
                     &tight_turn = cells[5];
   const auto joint_force = [](const ContactCell& cell) {
@@ -79,7 +79,7 @@ Figure pressure(const Study& study, const Canvas& canvas) {
   picture.body += column_titles(0.255, 0.735);
   const std::vector<ContactCell> cells = contact_cells(study, canvas);
   for (std::size_t k = 0; k < cells.size(); ++k)
-    picture.body += panel(cells[k], static_cast<int>(k / 2), static_cast<int>(k % 2));
+    picture.body += pressure_panel(cells[k], static_cast<int>(k / 2), static_cast<int>(k % 2));
   picture.body += "  unset multiplot\n";
   output::run_gnuplot(picture, canvas.folder, canvas.formats);
   return {
@@ -89,7 +89,7 @@ Figure pressure(const Study& study, const Canvas& canvas) {
       "flat coil "
       "after the closed form.",
       {"pi", "2pi"},
-      statements(cells)};
+      pressure_statements(cells)};
 }
 
 }  // namespace windlass::figures

@@ -17,7 +17,7 @@ namespace {
 /// Of a disc that stands for f = T.
 constexpr double disc = 2.2;
 
-std::string panel(const ContactCell& cell, int row, int column) {
+std::string map_panel(const ContactCell& cell, int row, int column) {
   const double left = column == 0 ? 0.075 : 0.485, top = 0.93 - 0.29 * row, T = cell.state.T;
   std::string text = output::margins(left, left + 0.37, top - 0.215, top) + contact_heading(cell);
   text += fmt::format("  set label 52 'T = {:g}' at graph 0.03, graph 0.88 left font ',10'\n", T);
@@ -52,7 +52,7 @@ double height(const equilibrium::Solution& state) {
   return 2.0 * high;
 }
 
-std::vector<Statement> statements(const std::vector<ContactCell>& cells) {
+std::vector<Statement> map_statements(const std::vector<ContactCell>& cells) {
   const auto &loose = cells[1].state, &middle = cells[3].state, &tight = cells[5].state;
   return {
       {"2π at T = 0.3: a helix without continuous contact",
@@ -91,7 +91,7 @@ Figure pressure_map(const Study& study, const Canvas& canvas) {
       disc, disc * std::sqrt(0.1));
   const std::vector<ContactCell> cells = contact_cells(study, canvas);
   for (std::size_t k = 0; k < cells.size(); ++k)
-    picture.body += panel(cells[k], static_cast<int>(k / 2), static_cast<int>(k % 2)) +
+    picture.body += map_panel(cells[k], static_cast<int>(k / 2), static_cast<int>(k % 2)) +
                     (k == 0 ? "  unset label 62\n  unset label 63\n" : "");
   picture.body += "  unset multiplot\n";
   output::run_gnuplot(picture, canvas.folder, canvas.formats);
@@ -105,7 +105,7 @@ Figure pressure_map(const Study& study, const Canvas& canvas) {
           "between "
           "contacts. Grey zone: contact of the flat coil after the closed form.",
           {"pi", "2pi"},
-          statements(cells)};
+          map_statements(cells)};
 }
 
 }  // namespace windlass::figures

@@ -84,7 +84,7 @@ void add_further_states(std::vector<Statement>& list, const StudyRun& study, con
   }
 }
 
-std::vector<Statement> statements(const Study& study) {
+std::vector<Statement> strength_statements(const Study& study) {
   std::vector<Statement> list;
   list.push_back(
       {"for φ ≤ π the configuration stays planar over the whole range of T",
@@ -141,7 +141,7 @@ Figure strength(const Study& study, const Canvas& canvas) {
       "dashed: "
       "unstable. Black dots in (b): the helix of a rod with clamped ends.",
       {"4pi", "2pi", "pi", "half-pi", "quarter-pi", "2pi-clamped"},
-      statements(study)};
+      strength_statements(study)};
 }
 
 Figure collapse(const Study& study, const Canvas& canvas) {

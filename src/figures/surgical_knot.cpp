@@ -39,7 +39,7 @@ double mean_slope(const StudyRun& study, double low, double high) {
   return std::log(b.R_tot / a.R_tot) / std::log(b.T / a.T);
 }
 
-std::vector<Statement> statements(const Study& study) {
+std::vector<Statement> knot_statements(const Study& study) {
   std::string coils, ratio;
   for (int n = 2; n <= 6; ++n) {
     coils += fmt::format("{}n = {}: {:.2f}", n > 2 ? ", " : "", n,
@@ -109,7 +109,7 @@ Figure surgical_knot(const Study& study, const Canvas& canvas) {
           "(blue, dashed where unstable) and helical (orange). The measured knots of the paper's panel (a) "
           "are not "
           "available as numbers.",
-          runs, statements(study)};
+          runs, knot_statements(study)};
 }
 
 }  // namespace windlass::figures

@@ -123,14 +123,14 @@ ordered_json sheets_json(const Solution& solution, const obstacle::Set& obstacle
   return sheets;
 }
 
-struct Quantity {
+struct ReportQuantity {
   const char* name;
   const char* title;
   std::function<double(const BranchRow&)> value;
 };
 
-std::vector<Quantity> quantities(const Run& run, const ReportOptions& options) {
-  std::vector<Quantity> list;
+std::vector<ReportQuantity> quantities(const Run& run, const ReportOptions& options) {
+  std::vector<ReportQuantity> list;
   const bool capstan = run.info.has_cylinder;
   if (capstan) {
     list = {{"T", "tension T [EI/ρ²]", [](const BranchRow& r) { return r.T; }},
@@ -176,7 +176,7 @@ std::vector<Quantity> quantities(const Run& run, const ReportOptions& options) {
 }
 
 /// One entry a branch: point names, labels, stability, and a list of values a quantity, in order.
-ordered_json branches_json(const Run& run, const std::vector<Quantity>& list) {
+ordered_json branches_json(const Run& run, const std::vector<ReportQuantity>& list) {
   std::map<int, std::vector<BranchRow>> branches;
   for (const BranchRow& row : run.rows) branches[row.branch].push_back(row);
   ordered_json json = ordered_json::array();
@@ -191,7 +191,7 @@ ordered_json branches_json(const Run& run, const std::vector<Quantity>& list) {
       entry["names"].push_back(point_name(row.branch, row.point, row.label));
       entry["index"].push_back(row.index ? ordered_json(*row.index) : ordered_json(nullptr));
       entry["topology"].push_back(row.topology);
-      for (const Quantity& quantity : list) {
+      for (const ReportQuantity& quantity : list) {
         entry["values"][quantity.name].push_back(finite_or_null(quantity.value(row)));
       }
     }
@@ -206,12 +206,12 @@ ordered_json branches_json(const Run& run, const std::vector<Quantity>& list) {
 }  // namespace
 
 ordered_json report_data(const Run& run, const ReportOptions& options) {
-  const std::vector<Quantity> list = quantities(run, options);
+  const std::vector<ReportQuantity> list = quantities(run, options);
   ordered_json data;
   data["info"] = to_json(run.info);
   data["scene"] = run.scene_toml;
   data["radius"] = options.rod_radius;
-  for (const Quantity& quantity : list)
+  for (const ReportQuantity& quantity : list)
     data["quantities"].push_back({{"name", quantity.name}, {"title", quantity.title}});
   if (run.info.has_cylinder) {
     data["quantities"].push_back({{"name", "alpha"}, {"title", "α = dlog R_tot / dlog T"}});

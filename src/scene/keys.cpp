@@ -14,7 +14,7 @@ namespace windlass::scene {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -50,8 +50,8 @@ bool Range::contains(double value) const {
 
 std::string Range::text() const {
   std::string out;
-  if (low != -infinity) out = fmt::format("{} {}", open_low ? ">" : ">=", low);
-  if (high != infinity)
+  if (low != -unbounded) out = fmt::format("{} {}", open_low ? ">" : ">=", low);
+  if (high != unbounded)
     out += fmt::format("{}{} {}", out.empty() ? "" : " and ", open_high ? "<" : "<=", high);
   if (out.empty()) out = "finite";
   if (allows_infinity) out += " or \"inf\"";

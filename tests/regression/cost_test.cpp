@@ -58,8 +58,8 @@ double clamped_thrust(double shortening) {
   return 16.0 * std::pow(std::comp_ellint_1(low), 2);
 }
 
-const Words planar{"model.kind=planar", "continuation.to=2", "continuation.step_max=0.1",
-                   "model.tolerance=1e-9"};
+const Words planar_coil{"model.kind=planar", "continuation.to=2", "continuation.step_max=0.1",
+                        "model.tolerance=1e-9"};
 const Words helical{"continuation.from=2", "continuation.to=0.6"};
 const Words strut{"continuation.step_max=0.1", "model.tolerance=2e-9"};
 
@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_SUITE(cost)
 // Bounds on iterations and points: a tenth above what was measured when they were written.
 
 BOOST_AUTO_TEST_CASE(planar_branch) {
-  const Cost cost = run_branch("continue", "capstan-2pi.toml", planar);
+  const Cost cost = run_branch("continue", "capstan-2pi.toml", planar_coil);
   // The tails are 12 long: the closed form of infinite ones is exact to exp(−2√2·12) = 2e-15.
   const double error = largest_error(cost.table, "R_tot", "T", [](double tension) {
     return windlass::rod::capstan::total_force(tension, 2.0 * M_PI);
@@ -117,7 +117,7 @@ BOOST_AUTO_TEST_CASE(instructions_a_point) {
     std::vector<std::string> settings;
     double most;  // millions a point
   };
-  for (const Case& c : {Case{"capstan-2pi.toml", planar, 0.45},
+  for (const Case& c : {Case{"capstan-2pi.toml", planar_coil, 0.45},
                         Case{"capstan-2pi.toml",
                              {"model.kind=kirchhoff", "continuation.from=3", "continuation.max_points=12"},
                              1.85},

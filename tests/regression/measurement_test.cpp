@@ -21,7 +21,7 @@ constexpr double mu = 0.27, two_pi = 2.0 * M_PI;
 /// A material scene: ρ = 14 mm, EI/ρ² = 1.231 N.
 std::string scene() { return shipped_scene("capstan-vps-pom"); }
 
-void make_run(const TemporaryFolder& folder) {
+void make_measured_run(const TemporaryFolder& folder) {
   const Outcome outcome = run_program(
       {"diagram", scene(), "--set", "rod.length=400 mm", "--set", "continuation.to=60 g", "--set",
        "rod.self_contact=false", "--out", "run", "--quiet"},  // the closed form is that of a thin rod
@@ -50,7 +50,7 @@ BOOST_AUTO_TEST_SUITE(measurement)
 
 BOOST_AUTO_TEST_CASE(a_known_coefficient_is_found_again) {
   const TemporaryFolder folder;
-  make_run(folder);
+  make_measured_run(folder);
   folder.write("data.csv", flat_strengths(unit_force()));
   const Outcome outcome =
       run_program({"fit", "run", "--csv", "data.csv", "--json", "--format", "png"}, folder.path());
@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(a_known_coefficient_is_found_again) {
 
 BOOST_AUTO_TEST_CASE(a_full_disk_does_not_take_the_numbers) {
   const TemporaryFolder folder;
-  make_run(folder);
+  make_measured_run(folder);
   folder.write("data.csv", flat_strengths(unit_force()));
   // Room for what is printed, 1 kB, not for the picture.
   const Outcome outcome =
@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(a_full_disk_does_not_take_the_numbers) {
 
 BOOST_AUTO_TEST_CASE(measured_points_are_laid_over_the_diagram) {
   const TemporaryFolder folder;
-  make_run(folder);
+  make_measured_run(folder);
   folder.write("data.csv", "T, F0\n1.6, 1.8\n3.2, 4.1\n");
   const Outcome outcome =
       run_program({"plot", "run", "--csv", "data.csv", "--format", "svg", "--set", "cylinder.friction=0.5"},
@@ -107,7 +107,7 @@ BOOST_AUTO_TEST_CASE(measured_points_are_laid_over_the_diagram) {
 
 BOOST_AUTO_TEST_CASE(bad_measurements_are_named) {
   const TemporaryFolder folder;
-  make_run(folder);
+  make_measured_run(folder);
   folder.write("bad.csv", "T [g], F0 [N]\n100, 1\n200, 1..9\n");
   for (const char* command : {"fit", "plot"}) {
     const Outcome outcome = run_program({command, "run", "--csv", "bad.csv"}, folder.path());

@@ -12,7 +12,7 @@ using namespace windlass;
 using equilibrium::Solution;
 using equilibrium::Started;
 
-scene::Scene coil(double tension, double turns) {
+scene::Scene long_coil(double tension, double turns) {
   scene::Scene scene;
   scene.name = "coil";
   scene.has_cylinder = true;
@@ -39,7 +39,7 @@ BOOST_AUTO_TEST_CASE(the_middle_of_long_coils_is_the_endless_helix) {
   const double tension = 1.2, cos4 = tension / 1.5, psi = std::acos(std::pow(cos4, 0.25));
   std::vector<double> off_angle, off_pressure;
   for (const double turns : {1.0, 2.0, 4.0}) {
-    Started rod = helical(coil(tension, turns));
+    Started rod = helical(long_coil(tension, turns));
     const chain::Profile profile = rod.problem->profile(rod.x, rod.p);
     const chain::Piece& middle = profile.pieces.front();  // starts at s = 0
     off_angle.push_back(std::abs(std::abs(middle.inclination(0)) - psi));
@@ -59,7 +59,7 @@ BOOST_AUTO_TEST_CASE(the_middle_of_long_coils_is_the_endless_helix) {
 
 BOOST_AUTO_TEST_CASE(half_and_full_chains_agree_on_helices) {
   for (const double tension : {1.1, 0.7}) {
-    Started half = helical(coil(tension, 1.0));
+    Started half = helical(long_coil(tension, 1.0));
     Started full = equilibrium::unfold(*half.problem, half.x, half.p, 0);
     const Solution a = equilibrium::record(*half.problem, half.x, half.p);
     const Solution b = equilibrium::record(*full.problem, full.x, full.p);
@@ -75,7 +75,7 @@ BOOST_AUTO_TEST_CASE(half_and_full_chains_agree_on_helices) {
 }
 
 BOOST_AUTO_TEST_CASE(observed_order_on_a_helix_is_twice_the_number_of_stages) {
-  Started start = helical(coil(1.0, 1.0));
+  Started start = helical(long_coil(1.0, 1.0));
   const auto& topology = start.problem->topology();
   const auto force = [&](int stages, int factor) {
     std::vector<chain::ArcMesh> meshes{{chain::uniform_mesh(2 * factor), stages},

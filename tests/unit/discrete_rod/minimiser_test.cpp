@@ -4,18 +4,14 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "support/petsc_session.hpp"
 #include "windlass/discrete_rod/energy.hpp"
-#include "windlass/petsc/session.hpp"
 #include "windlass/rod/capstan.hpp"
 
 using namespace windlass;
 namespace capstan = rod::capstan;
 
 namespace {
-
-struct Session {
-  Session() { petsc::ensure_session(); }
-};
 
 contact::Loads coil(double tension, double angle, double half_length) {
   contact::Loads loads;
@@ -38,7 +34,7 @@ double force_error(int edges) {
 
 }  // namespace
 
-BOOST_FIXTURE_TEST_SUITE(discrete_rods, Session)
+BOOST_FIXTURE_TEST_SUITE(discrete_rods, test::PetscSession)
 
 BOOST_AUTO_TEST_CASE(gradient_and_hessian_are_those_of_the_energy) {
   for (const bool clamped : {false, true}) {

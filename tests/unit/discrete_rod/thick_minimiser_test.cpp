@@ -4,8 +4,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "support/petsc_session.hpp"
 #include "windlass/discrete_rod/thick_energy.hpp"
-#include "windlass/petsc/session.hpp"
 #include "windlass/rod/capstan.hpp"
 
 using namespace windlass;
@@ -14,10 +14,6 @@ using discrete_rod::ThickEnergy;
 using discrete_rod::ThickRod;
 
 namespace {
-
-struct Session {
-  Session() { petsc::ensure_session(); }
-};
 
 /// A helix of this radius and rise a turn, two turns long, bumpy.
 Eigen::VectorXd coil(const SplineRod& rod, double radius, double rise, double bump) {
@@ -35,7 +31,7 @@ ThickRod thick_rod(double tension, double radius) { return {tension, 2.0 * M_PI,
 
 }  // namespace
 
-BOOST_FIXTURE_TEST_SUITE(thick_discrete_rods, Session)
+BOOST_FIXTURE_TEST_SUITE(thick_discrete_rods, test::PetscSession)
 
 BOOST_AUTO_TEST_CASE(a_spline_is_its_own_half_turn_image) {
   const SplineRod rod(6.0, 3.0, 0.25);

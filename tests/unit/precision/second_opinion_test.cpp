@@ -4,15 +4,11 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "windlass/petsc/session.hpp"
+#include "support/petsc_session.hpp"
 
 using namespace windlass;
 
 namespace {
-
-struct Session {
-  Session() { petsc::ensure_session(); }
-};
 
 scene::Scene thick_scene() {
   scene::Scene scene;
@@ -28,7 +24,7 @@ scene::Scene thick_scene() {
 
 }  // namespace
 
-BOOST_FIXTURE_TEST_SUITE(second_opinions, Session)
+BOOST_FIXTURE_TEST_SUITE(second_opinions, test::PetscSession)
 
 BOOST_AUTO_TEST_CASE(chain_and_discrete_rod_agree_on_one_touch_and_on_two) {
   precision::StudyOptions options;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "windlass/petsc/session.hpp"
+#include "support/petsc_session.hpp"
 #include "windlass/rod/capstan.hpp"
 #include "windlass/scene/error.hpp"
 
@@ -14,10 +14,6 @@ using precision::Measurement;
 using precision::Study;
 
 namespace {
-
-struct Session {
-  Session() { petsc::ensure_session(); }
-};
 
 scene::Scene capstan_scene(double tension) {
   scene::Scene scene;
@@ -46,7 +42,7 @@ std::vector<Measurement> of(const Study& study, const std::string& method) {
 
 }  // namespace
 
-BOOST_FIXTURE_TEST_SUITE(work_and_precision, Session)
+BOOST_FIXTURE_TEST_SUITE(work_and_precision, test::PetscSession)
 
 BOOST_AUTO_TEST_CASE(a_flat_coil_is_measured_by_every_method) {
   const Study study = quick_study(2.0);

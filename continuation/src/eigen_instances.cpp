@@ -1,0 +1,2 @@
+#define INSTANCE_OF_EIGEN template  // declared by the precompiled header, defined here
+#include "continuation/eigen_instances.hpp"
