@@ -44,11 +44,12 @@ std::optional<Started> by_continuation(const scene::Scene& scene, bool spatial, 
   return reach(*from, scene, scene.load.tension, half, keys, failure);
 }
 
-/// A coil whose rod keeps off itself: thickened at a tension at which its turns lie apart, then tightened. Thickened under high
-/// tension it would go through a change of contact at every turn.
+/// A coil whose rod keeps off itself: the flat one thickened, or where that cannot be, thickened at a tension at which its turns
+/// lie apart and still press on each other, then tightened or loosened. Thickened under high tension several turns would go
+/// through a change of contact each.
 std::optional<Started> thick_coil(const scene::Scene& scene, bool half, const std::vector<std::string>& keys,
                                   std::string& failure) {
-  constexpr double loose_tension = 2.0, turns_side_by_side = 3.0 * M_PI;
+  constexpr double loose_tension = 1.5, high = 2.0, turns_side_by_side = 3.0 * M_PI;
   const auto thickened = [&](const scene::Scene& at, bool as_half,
                              const std::vector<std::string>& in) -> std::optional<Started> {
     scene::Scene thin = at;
@@ -56,8 +57,8 @@ std::optional<Started> thick_coil(const scene::Scene& scene, bool half, const st
     const std::optional<Started> flat = followed_coil(thin, true, true, in, failure);
     return flat ? thicken(*flat, at, as_half, in, failure) : std::nullopt;
   };
-  const bool loosened = scene.load.tension > loose_tension && scene.load.angle > turns_side_by_side;
-  if (!loosened) return thickened(scene, half, keys);
+  if (scene.load.tension <= high || scene.load.angle <= turns_side_by_side)
+    if (const auto direct = thickened(scene, half, keys)) return direct;
   scene::Scene loose = scene;
   loose.load.tension = loose_tension;
   const std::optional<Started> from = thickened(loose, true, {"load.tension"});

@@ -84,15 +84,42 @@ BOOST_AUTO_TEST_CASE(the_crossing_of_one_turn) {
   }
 }
 
-// Two turns: each tail presses on the strand that it lies over.
-BOOST_AUTO_TEST_CASE(the_tails_of_two_turns) {
-  for (const auto& [radius, from] : {std::pair{1.0 / 6.0, 10.0}, {2.0 / 7.0, 5.0}, {0.5, 2.0}}) {
+// Two turns: each tail presses on the strand that it lies over, and under high tension the turns lie side by side.
+BOOST_AUTO_TEST_CASE(two_turns_from_high_tension_down) {
+  const std::string
+      apart = "tail cross gap line cross line cross line gap cross tail",
+      side_by_side =
+          "tail cross gap line cross lines cross line cross line cross line cross lines cross line "
+          "gap cross tail";
+  for (const double radius : {1.0 / 6.0, 2.0 / 7.0, 0.5}) {
     const TemporaryFolder folder;
-    const Table table = follow(folder, two_turns, radius, from, 0.3);
-    BOOST_TEST(table.rows.front().at("topology") ==
-               "tail cross gap line cross line cross line gap cross tail");
+    const Table table = follow(folder, two_turns, radius, 10.0, 0.3);
+    BOOST_TEST(table.rows.front().at("topology") == (radius < 0.2 ? apart : side_by_side));
     BOOST_TEST(std::stod(table.rows.back().at("T")) == 0.3);
   }
+}
+
+// Turns meet at a point, which widens to a line at once: both found from either side and on either chain, and the states agree.
+BOOST_AUTO_TEST_CASE(turns_come_to_lie_side_by_side) {
+  const double radius = 2.0 / 7.0;
+  const TemporaryFolder up, down, full;
+  const Table rising = follow(up, two_turns, radius, 5.0, 7.0),
+              falling = follow(down, two_turns, radius, 7.0, 5.0),
+              whole = follow(full, two_turns, radius, 5.0, 7.0, {"model.symmetry=none"});
+  BOOST_TEST(events(rising).size() == 2u);
+  BOOST_TEST(events(rising) == events(falling), boost::test_tools::tolerance(1e-8)
+                                                    << boost::test_tools::per_element());
+  BOOST_TEST(events(rising) == events(whole), boost::test_tools::tolerance(1e-8)
+                                                  << boost::test_tools::per_element());
+  const auto strength = [](const auto& row) { return std::stod(row.at("R_tot")); };
+  // The touches of a line make less than 1e-11 of it, however many there are.
+  BOOST_TEST(strength(rising.rows.back()) == strength(falling.rows.front()),
+             boost::test_tools::tolerance(1e-10));
+  BOOST_TEST(strength(rising.rows.back()) == strength(whole.rows.back()),
+             boost::test_tools::tolerance(1e-10));
+  for (const auto& row : rising.rows)
+    if (row.at("topology").find("lines") != std::string::npos && row.at("type") == "regular")
+      BOOST_TEST(std::stod(row.at("self_distance")) == 2.0 * radius, boost::test_tools::tolerance(2e-9));
 }
 
 // A thinner and thinner rod is the thin one: R_tot differs by the square of the radius.
