@@ -97,8 +97,9 @@ bool StoppingRule::last(double length, double residual, double state_size, bool 
   // Where corrections are this small twice and F no longer falls, what is left of it is the rounding of its large terms
   // (those of an arc about to vanish, say).
   const bool rounded = taken_ > 0 && previous_ <= tolerance && length <= 0.1 * tolerance && !falls;
-  // What the last correction leaves of F goes on as before: a good part of what is allowed where they converge slowly.
-  constexpr double left = 0.03;
+  // What the last correction leaves of F goes on as before: a good part of what is allowed where they converge slowly. While F
+  // still falls another one is worth while.
+  const double left = falls ? 0.03 : 0.1;
   const double after = taken_ > 0 ? residual * std::min(1.0, residual / previous_residual_) : 0.0;
   ++taken_;
   previous_ = length;

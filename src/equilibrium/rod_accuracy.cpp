@@ -17,9 +17,9 @@ namespace {
 /// never claims less than rounding leaves.
 constexpr double safety = 2.0, rounding = 2e-14;
 
-/// Every stored point must pass `verify`, whose bounds on frames, moments and positions are 1e-9: a quarter of that, since what is
+/// Every stored point must pass `verify`, whose bounds on frames, moments and positions are 1e-9: half of that, since what is
 /// left on several arcs adds up.
-constexpr double certificate_level = 2.5e-10;
+constexpr double certificate_level = 5e-10;
 
 /// Growth lengths of an element: the certificate integrates from node to node, and errors grow by exp(3) at most. Elements
 /// of many (straight tails at high tension) are left whole; there it measures the distance to the nearest true trajectory

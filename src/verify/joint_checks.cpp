@@ -27,7 +27,7 @@ double judged(const JointRecord& joint, const ArcRecord& before, const ArcRecord
 }
 
 /// Strands that touch along a line do so at places that divide it (see chain/coupling.hpp): there they need not be nearest. What
-/// counts is how much nearer they can be a neighbouring touch away. 1 elsewhere.
+/// counts is how much nearer they can be half way to a neighbouring touch. 1 elsewhere.
 double distance_that_counts(const Solution& solution, std::size_t k) {
   const auto& joints = solution.joints;
   const auto neighbours = [&](std::size_t a, std::size_t b) {
@@ -35,7 +35,7 @@ double distance_that_counts(const Solution& solution, std::size_t k) {
            std::abs(joints[a].partner - joints[b].partner) == 1;
   };
   if (!neighbours(k, k - 1) || !neighbours(k, k + 1)) return 1.0;
-  return std::max(joints[k + 1].s - joints[k].s, joints[k].s - joints[k - 1].s);
+  return 0.5 * std::max(joints[k + 1].s - joints[k].s, joints[k].s - joints[k - 1].s);
 }
 
 }  // namespace

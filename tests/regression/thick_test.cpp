@@ -101,7 +101,7 @@ BOOST_AUTO_TEST_CASE(two_turns_from_high_tension_down) {
 
 // Turns meet at a point, which widens to a line at once: both found from either side and on either chain, and the states agree.
 BOOST_AUTO_TEST_CASE(turns_come_to_lie_side_by_side) {
-  const double radius = 2.0 / 7.0;
+  const double radius = std::stod(std::to_string(2.0 / 7.0));  // as it is given to the program
   const TemporaryFolder up, down, full;
   const Table rising = follow(up, two_turns, radius, 5.0, 7.0),
               falling = follow(down, two_turns, radius, 7.0, 5.0),
