@@ -18,7 +18,7 @@ void add_precision(CommandLine& app, CommonOptions& common, int& status) {
       "with the\nchain, on several meshes, extrapolated; a table of R_tot and of the force between strands "
       "by "
       "both, second_opinion.csv.\nIts states: R/r = 1, 2.5, 5 times T from 1 to 12 (two turns and more: to "
-      "4), "
+      "8), "
       "or those of --tension and --radius;\nwith --quick the scene's own.");
   struct Words {
     std::string scene;
