@@ -52,7 +52,10 @@ std::string heading(const equilibrium::Solution& solution, const std::string& ti
                     const std::optional<scene::Units>& units) {
   std::string text =
       "  set datafile missing '?'\n  set multiplot\n  unset key\n  unset tics\n  unset border\n";
-  text += "  set label 1 " + gnuplot_text(title) + " at screen 0.5, screen 0.968 center font ',11'\n";
+  constexpr int usual = 11, least = 6, letters = 85;  // that the width holds at the usual size
+  const int size = std::clamp(usual * letters / std::max(1, static_cast<int>(title.size())), least, usual);
+  text += "  set label 1 " + gnuplot_text(title) + " at screen 0.5, screen 0.968 center font '," +
+          std::to_string(size) + "'\n";
   text += "  set label 2 " + gnuplot_text(subtitle(solution), false) +
           " at screen 0.5, screen 0.925 center font ',9'\n";
   if (units)
