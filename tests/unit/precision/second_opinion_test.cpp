@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(it_is_for_thick_rods_with_free_ends) {
   BOOST_TEST(precision::has_second_opinion(scene));
   BOOST_TEST(precision::default_states(scene).tensions.size() == 6u);
   scene.load.angle = 4.0 * M_PI;
-  BOOST_TEST(precision::default_states(scene).tensions.size() == 4u);
+  BOOST_TEST(precision::default_states(scene).tensions.size() == 5u);
   scene.ends.kind = scene::EndKind::clamped;
   BOOST_TEST(!precision::has_second_opinion(scene));
   scene = thick_scene();
