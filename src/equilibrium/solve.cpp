@@ -223,7 +223,8 @@ Equilibria on_rung(const scene::Scene& scene) {
   }
   Started planar = cold_start(scene, false, closed_form || scene.half_turn(), keys);
   const int index = planar.problem->total_index(planar.x, planar.p);
-  Equilibria out = only(finish(planar, "asked for"), scene, index);
+  const char* why = planar.problem->spatial() ? "struts are solved as Kirchhoff rods" : "asked for";
+  Equilibria out = only(finish(planar, why), scene, index);
   if (closed_form) out.answer.model = "closed_form";
   return out;
 }
