@@ -276,17 +276,12 @@ std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const 
   Entry exact = guess;
   const bool vanishes = (event.kind == Kind::length && !event.redrawn && !becomes_touch) ||
                         (event.kind == Kind::curvature && next.opened.empty());
-  if (vanishes && tried([&] {
-        const auto found = locate_from_beyond(exact, event.s + 0.5 * least_length * unit);
-        if (found) precision = *found;
-        return found && holds(exact);
-      }))
-    return exact;
   // Where strands meet the force of the new touch says better than their distance between samples.
   const bool meets = event.kind == Kind::approach && !event.redrawn;
-  exact = guess;
-  if (meets && tried([&] {
-        const auto found = locate_from_beyond(exact, event.s, new_touch_force(next.topology));
+  const double at = vanishes ? event.s + 0.5 * least_length * unit : event.s;
+  if ((vanishes || meets) && tried([&] {
+        const auto found = locate_from_beyond(
+            exact, at, meets ? std::optional(new_touch_force(next.topology)) : std::nullopt);
         if (found) precision = *found;
         return found && holds(exact);
       }))

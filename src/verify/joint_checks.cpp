@@ -85,8 +85,8 @@ void check_joints(const Solution& solution, const scene::Scene& scene, const Sca
     list.at_most("strand_contact", apart.value(), tight,
                  "distance of touching strands against 2 rod.radius, and their forces against each other");
     list.at_most("strand_tangency", along.value(), tight,
-                 "slope to each other of strands that touch; inside a line of theirs: times the distance to "
-                 "the next touch");
+                 "slope to each other of strands that touch; inside a line of theirs: times half the "
+                 "distance to the next touch");
   }
   if (scene.self_contact && solution.self_distance)
     list.at_least("self_distance", *solution.self_distance - 2.0 * scene.rod_radius, -tight,

@@ -33,7 +33,7 @@ std::optional<Started> discovered_start(const scene::Scene& scene, bool spatial,
 
 /// The state of a flat thin rod (half chain) with its strands pressed apart to the scene's radius: its crossings become
 /// touches with its own image, and the radius grows through every event on the way. As it is where nothing crosses.
-/// @throws NoEquilibrium
+/// @param failure  why there is none
 std::optional<Started> thicken(const Started& flat, const scene::Scene& scene, bool half,
                                const std::vector<std::string>& keys, std::string& failure);
 
