@@ -10,13 +10,13 @@ namespace windlass::equilibrium {
 
 namespace {
 
-using Contact = equilibrium::Stretch;
+using Contact = NodalContact;
 
 /// Contacts of the half rod, from the mid-point outward, as a draft of its arcs.
 Draft draft_of(const Discovery& found, double half_length) {
   Draft draft;
   draft.s.push_back(0.0);
-  for (const Contact& contact : found.stretches) {
+  for (const Contact& contact : found.contacts) {
     const bool line = contact.kind == Contact::Kind::line;
     if (contact.s_begin > 0.0) {  // else it lies across the mid-point
       draft.right.push_back(chain::Stretch::gap);
@@ -76,7 +76,7 @@ std::optional<Started> discovered_start(const scene::Scene& scene, bool spatial,
   DiscoveryOptions options;
   options.clamped = scene.ends.kind == scene::EndKind::clamped;
   const Discovery found = discover_contacts(loads, options);
-  if (!found.converged || found.stretches.empty()) return std::nullopt;
+  if (!found.converged || found.contacts.empty()) return std::nullopt;
   const Draft draft = draft_of(found, loads.half_length);
   std::optional<Started> planar =
       attempt(scene, false, half || spatial, keys, draft, profile_of(found, loads));

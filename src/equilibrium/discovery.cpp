@@ -166,8 +166,8 @@ bool descend(NodalRod& rod, double angle, const DiscoveryOptions& options, Vecto
   return true;
 }
 
-Stretch stretch(const Discovery& d, const std::vector<double>& angle, int first, int last) {
-  Stretch out;
+NodalContact stretch(const Discovery& d, const std::vector<double>& angle, int first, int last) {
+  NodalContact out;
   double moment_s = 0.0, moment_angle = 0.0;
   for (int k = first; k <= last; ++k) {
     out.force += d.force[k];
@@ -176,7 +176,7 @@ Stretch stretch(const Discovery& d, const std::vector<double>& angle, int first,
   }
   const int count = first == 0 ? 2 * last + 1 : last - first + 1;  // with the mirror image
   if (count >= 3) {
-    out.kind = Stretch::Kind::line;
+    out.kind = NodalContact::Kind::line;
     out.s_begin = d.s[first], out.s_end = d.s[last];
     out.angle_begin = angle[first], out.angle_end = angle[last];
   } else {
@@ -217,7 +217,7 @@ Discovery describe(const NodalRod& rod, const VectorXd& x, double tension) {
     int last = k;
     for (; k < rod.nodes() && d.gap[k] < rod.near_contact(); ++k)
       if (touches(k)) last = k;
-    d.stretches.push_back(stretch(d, angle, first, last));
+    d.contacts.push_back(stretch(d, angle, first, last));
   }
   return d;
 }

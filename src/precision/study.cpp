@@ -153,7 +153,7 @@ void measure_nodal(const Reference& reference, const StudyOptions& options, Meas
           double energy = 0.0;
           for (std::size_t k = 1; k < found.s.size(); ++k)
             energy += std::pow(found.theta[k] - found.theta[k - 1], 2) / (found.s[k] - found.s[k - 1]);
-          const double last = found.stretches.empty() ? 0.0 : found.stretches.back().angle_end;
+          const double last = found.contacts.empty() ? 0.0 : found.contacts.back().angle_end;
           m.value = {found.R_tot, last, energy, std::nullopt};
         });
   }

@@ -17,7 +17,7 @@ struct DiscoveryOptions {
 };
 
 /// One contact of the half rod s >= 0. A line has three touching nodes or more on the whole rod, a touch one or two.
-struct Stretch {
+struct NodalContact {
   enum class Kind { line, touch };
   Kind kind = Kind::touch;
   double s_begin = 0.0, s_end = 0.0;          ///< equal for a touch: where its force acts [ρ]
@@ -32,7 +32,7 @@ struct Discovery {
   std::vector<double> s, theta, x, y;
   std::vector<double> gap;         ///< √(x² + y²) − 1
   std::vector<double> force;       ///< nodal contact forces; at s = 0 half of it
-  std::vector<Stretch> stretches;  ///< by increasing s
+  std::vector<NodalContact> contacts;  ///< by increasing s
 };
 
 /// Finds the contact topology of a planar rod that is symmetric about its mid-point.

@@ -10,7 +10,7 @@
 using namespace windlass;
 using equilibrium::Discovery;
 using equilibrium::DiscoveryOptions;
-using equilibrium::Stretch;
+using equilibrium::NodalContact;
 
 BOOST_AUTO_TEST_SUITE(discovery)
 
@@ -48,7 +48,7 @@ void check_physics(const Discovery& d, double angle, double tension) {
   }
   BOOST_TEST(std::abs(vertical + 2.0 * tension * std::sin(0.5 * angle)) < 1e-6);
   double total = 0.0;
-  for (const Stretch& stretch : d.stretches) total += 2.0 * stretch.force;
+  for (const NodalContact& contact : d.contacts) total += 2.0 * contact.force;
   BOOST_TEST(std::abs(total - d.R_tot) < 1e-6);
 }
 
@@ -60,9 +60,9 @@ BOOST_AUTO_TEST_CASE(line_contact_meets_the_closed_form) {
     const Discovery d = discover(angle, 1.0);
     check_physics(d, angle, 1.0);
     BOOST_TEST(std::abs(d.R_tot / exact - 1.0) < 2e-3);
-    BOOST_TEST_REQUIRE(d.stretches.size() == 1u);
-    const Stretch& line = d.stretches.front();
-    BOOST_TEST((line.kind == Stretch::Kind::line));
+    BOOST_TEST_REQUIRE(d.contacts.size() == 1u);
+    const NodalContact& line = d.contacts.front();
+    BOOST_TEST((line.kind == NodalContact::Kind::line));
     BOOST_TEST(line.s_begin == 0.0);
     BOOST_TEST(std::abs(line.s_end - (0.5 * angle - std::acos(0.5))) < 0.1);
     BOOST_TEST(std::abs(line.angle_end - line.s_end) < 1e-3);
@@ -86,9 +86,9 @@ BOOST_AUTO_TEST_CASE(a_weak_pull_at_a_small_angle_touches_once) {
     const Discovery d = discover(0.5 * pi, 0.3, 80, clamped);
     check_physics(d, 0.5 * pi, 0.3);
     BOOST_TEST(std::abs(d.R_tot - 0.6 * std::sin(0.25 * pi)) < 1e-6);
-    BOOST_TEST_REQUIRE(d.stretches.size() == 1u);
-    BOOST_TEST((d.stretches.front().kind == Stretch::Kind::touch));
-    BOOST_TEST(d.stretches.front().s_begin == 0.0);
+    BOOST_TEST_REQUIRE(d.contacts.size() == 1u);
+    BOOST_TEST((d.contacts.front().kind == NodalContact::Kind::touch));
+    BOOST_TEST(d.contacts.front().s_begin == 0.0);
   }
 }
 
@@ -96,9 +96,9 @@ BOOST_AUTO_TEST_CASE(below_the_line_limit_a_coil_touches_at_its_sides) {
   // The pulls of the 2 pi coil are horizontal and cancel: only forces along x, at ±pi/2, balance.
   const Discovery d = discover(2.0 * pi, 0.4);
   check_physics(d, 2.0 * pi, 0.4);
-  BOOST_TEST_REQUIRE(d.stretches.size() == 1u);
-  const Stretch& touch = d.stretches.front();
-  BOOST_TEST((touch.kind == Stretch::Kind::touch));
+  BOOST_TEST_REQUIRE(d.contacts.size() == 1u);
+  const NodalContact& touch = d.contacts.front();
+  BOOST_TEST((touch.kind == NodalContact::Kind::touch));
   BOOST_TEST(std::abs(touch.angle_begin - 0.5 * pi) < 1e-3);
   BOOST_TEST(d.gap.front() > 1e-3);
 }
@@ -106,10 +106,10 @@ BOOST_AUTO_TEST_CASE(below_the_line_limit_a_coil_touches_at_its_sides) {
 BOOST_AUTO_TEST_CASE(two_turns_below_the_line_limit) {
   const Discovery d = discover(4.0 * pi, 0.45);
   check_physics(d, 4.0 * pi, 0.45);
-  for (const Stretch& stretch : d.stretches)
-    BOOST_TEST_MESSAGE((stretch.kind == Stretch::Kind::line ? "line " : "touch ")
-                       << stretch.angle_begin / pi << " pi, force " << stretch.force);
-  BOOST_TEST(!d.stretches.empty());
+  for (const NodalContact& contact : d.contacts)
+    BOOST_TEST_MESSAGE((contact.kind == NodalContact::Kind::line ? "line " : "touch ")
+                       << contact.angle_begin / pi << " pi, force " << contact.force);
+  BOOST_TEST(!d.contacts.empty());
 }
 
 // Under so weak a pull this coil has no flat state in contact. On the way down all nodes let go at once,
@@ -117,7 +117,7 @@ BOOST_AUTO_TEST_CASE(two_turns_below_the_line_limit) {
 BOOST_AUTO_TEST_CASE(a_coil_that_lifts_off_is_not_found) {
   const double angle = 9.85468;
   const Discovery d = discover(angle, 0.05, 80, false, 0.5 * angle + 11.0);
-  BOOST_TEST(d.stretches.empty());
+  BOOST_TEST(d.contacts.empty());
 }
 
 // The arcs' state on the discovered contacts is that of the other ways in, which never saw them.
