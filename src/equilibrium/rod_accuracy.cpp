@@ -128,9 +128,14 @@ double RodProblem::excess(const Vector& x, const Vector& p) {
   // In long helices estimates below this are rounding's: no mesh brings less, and ever finer ones bring more.
   constexpr double attainable = 2e-12;
   const double goal = std::max(scene_.model.tolerance, attainable);
-  const double error = error_estimate(x, p);
-  const double nodal = nodal_error_ > 3.0 * nodal_floor_ ? nodal_error_ : 0.0;
-  return std::max(error / goal, nodal / nodal_goal());
+  const auto beyond = [](double error, double floor) { return error > 3.0 * floor ? error : 0.0; };
+  const double error = beyond(error_estimate(x, p), error_floor_);
+  return std::max(error / goal, beyond(nodal_error_, nodal_floor_) / nodal_goal());
+}
+
+void RodProblem::note_rounding(double error_before) {
+  constexpr double towards = 0.3, plausible = 1e-10;  // a tenth or less was asked for
+  if (last_error_ > towards * error_before && last_error_ < plausible) error_floor_ = last_error_;
 }
 
 double RodProblem::nodal_goal() const {
@@ -143,14 +148,15 @@ double RodProblem::nodal_goal() const {
 }
 
 Vector RodProblem::refine(Vector x, const Vector& p, int rounds) {
+  bool refined = false;  // with less error asked for, not only distributed evenly
   for (int k = 0; k < rounds; ++k) {
     settle(x, p);
-    const double before = nodal_error_;
+    const double before = nodal_error_, error_before = last_error_;
     double too_large = excess(x, p);
-    if (k > 1 && nodal_error_ > 0.3 * before) {
-      nodal_floor_ = nodal_error_;
-      too_large = excess(x, p);
-    }
+    if (k > 1 && nodal_error_ > 0.3 * before) nodal_floor_ = nodal_error_;
+    if (refined) note_rounding(error_before);
+    if (k > 1 || refined) too_large = excess(x, p);
+    refined = too_large > 1.0;
     if (too_large <= 1.0 && k > 0) return x;  // the first mesh is a guess and is always equidistributed
     const Loads at = loads(p);
     const double order = order_of(meshes_);
@@ -182,7 +188,10 @@ std::optional<Vector> RodProblem::moved_to(std::vector<chain::ArcMesh> meshes, c
     const double old_error = std::get<0>(old_errors);
     const bool closer = old_error > scene_.model.tolerance && last_error_ < towards * old_error;
     if (!within && (closer || nodal_error_ < by_mesh * old_nodal)) return fresh;
-    if (!within) nodal_floor_ = std::max(nodal_error_, old_nodal);  // rounding: no mesh helps
+    if (!within) {  // rounding: no mesh helps
+      nodal_floor_ = std::max(nodal_error_, old_nodal);
+      note_rounding(old_error);
+    }
   }
   meshes_ = old_meshes;  // keep what works
   rebuild();
@@ -203,6 +212,7 @@ std::optional<Vector> RodProblem::remeshed_where_needed(const Vector& x, const V
   constexpr double superfluous = 1e-3, worthwhile = 0.75;
   constexpr double forgotten = 0.9;  // a point: near an event rounding may be large, and soon is not
   nodal_floor_ *= forgotten;
+  error_floor_ *= forgotten;
   const double too_large = excess(x, p);
   // A straight strut is exact on any mesh, which says nothing about its modes: their loads need the mesh it has.
   const bool coarsen = too_large < superfluous && last_error_ > 1.5 * rounding;
@@ -210,7 +220,8 @@ std::optional<Vector> RodProblem::remeshed_where_needed(const Vector& x, const V
     return moved_to(new_meshes(x, loads(p), 1.0), x, p, true);
   if (too_large <= 1.0 && !coarsen) return std::nullopt;
   const double order = order_of(meshes_);
-  const auto meshes = new_meshes(x, loads(p), std::pow(30.0 * too_large, 1.0 / order));
+  const auto meshes =
+      new_meshes(x, loads(p), std::pow(30.0 * std::max(too_large, 1e-3 * superfluous), 1.0 / order));
   const auto elements = [](const std::vector<chain::ArcMesh>& arcs) {
     std::size_t sum = 0;
     for (const chain::ArcMesh& arc : arcs) sum += arc.nodes.size() - 1;

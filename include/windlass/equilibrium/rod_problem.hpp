@@ -116,24 +116,20 @@ class RodProblem final : public continuation::Problem {
   /// What earlier calls leave behind for later ones; a copy needs it to answer as this problem would.
   struct Memory {
     int index = -1, breaking_index = -1;
-    double error = 0.0, nodal_floor = 0.0;
+    double error = 0.0, nodal_floor = 0.0, error_floor = 0.0;
     bool slides = false;
     int sliding_off = 0, sliding_reference = 0;
   };
   Memory memory() const {
-    return {index_,
-            breaking_index_,
-            last_error_,
-            nodal_floor_,
-            slides_,
-            sliding_off_,
-            sliding_reference_.value_or(0)};
+    return {index_,       breaking_index_, last_error_,  nodal_floor_,
+            error_floor_, slides_,         sliding_off_, sliding_reference_.value_or(0)};
   }
   void remember(const Memory& memory) {
     index_ = memory.index;
     breaking_index_ = memory.breaking_index;
     last_error_ = memory.error;
     nodal_floor_ = memory.nodal_floor;
+    error_floor_ = memory.error_floor;
     slides_ = memory.slides;
     chain_->let_slide(slides_);
     sliding_off_ = memory.sliding_off;
@@ -156,6 +152,8 @@ class RodProblem final : public continuation::Problem {
   /// Errors divided by what is allowed: of the target by the tolerance, of the nodes by the certificate's level.
   double excess(const Vector& x, const Vector& p);
   double nodal_goal() const;
+  /// After a refinement that asked for less than `error_before`.
+  void note_rounding(double error_before);
   std::vector<chain::ArcMesh> new_meshes(const Vector& x, const contact::Loads& loads, double growth) const;
   /// The state on `meshes`, which replace the present ones; nullopt, and nothing is changed, where Newton fails or,
   /// with `within`, the errors there are too large.
@@ -187,10 +185,10 @@ class RodProblem final : public continuation::Problem {
   /// it goes on where the rod is let to slide, or no longer.
   int sliding_off_ = 0;
   std::optional<int> sliding_reference_;
-  double last_error_ = 0.0;           ///< relative, of the target
-  double nodal_error_ = 0.0;          ///< of frames and places at element ends
-  double nodal_floor_ = 0.0;          ///< what refinement did not reduce: rounding
-  Vector estimated_x_, estimated_p_;  ///< the state the two belong to
+  double last_error_ = 0.0;                       ///< relative, of the target
+  double nodal_error_ = 0.0;                      ///< of frames and places at element ends
+  double nodal_floor_ = 0.0, error_floor_ = 0.0;  ///< what refinement did not reduce of them: rounding
+  Vector estimated_x_, estimated_p_;              ///< the state the two belong to
 };
 
 }  // namespace windlass::equilibrium
