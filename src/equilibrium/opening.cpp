@@ -147,7 +147,7 @@ std::vector<int> short_gaps(RodProblem& problem, const Vector& x, const Vector& 
 /// adjusts to the edges as they are then. @param held_now  the equations beside the problem's, at x and p
 bool solve_by_turns(RodProblem& problem, Vector& x, Vector& p, const std::function<Borders()>& held_now) {
   const bool by_turns = !short_gaps(problem, x, p).empty();
-  const int turns = by_turns ? 20 : 1, corrections = by_turns ? 2 : 20;  // the last correction is not taken
+  const int turns = by_turns ? 12 : 1, corrections = by_turns ? 2 : 20;  // the last correction is not taken
   for (int k = 0; k < turns; ++k) {
     const Borders held = held_now();
     Iterate iterate = iterate_of(problem, x, p, held);

@@ -191,15 +191,18 @@ void adjust_length(Entry& entry, int link) {
 /// Brings an opened arc to the length that it has at p(0) = p, by the secant method: its length answers to the load steeply,
 /// the load to its length mildly. @returns whether it is there
 bool bring_to(Entry& entry, int link, double p) {
-  constexpr int most = 20;
+  constexpr int most = 20, most_failures = 4;  // in a row: a sixteenth of the step fails, too
   const double close = 1e-10 * std::max(1.0, std::abs(p));
   double last = length_of(entry, link), length = 1.2 * last, last_p = entry.p(0);
+  int failures = 0;
   for (int k = 0; k < most && std::abs(last_p - p) > close; ++k) {
     Entry other = entry;
     if (!tried([&] { return solve_at_length(*entry.problem, other.x, other.p, link, length); })) {
+      if (++failures > most_failures) return false;
       length = 0.5 * (last + length);
       continue;
     }
+    failures = 0;
     const double slope = (other.p(0) - last_p) / (length - last);
     entry = other, last = length, last_p = other.p(0);
     if (slope == 0.0) return false;
