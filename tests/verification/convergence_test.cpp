@@ -4,6 +4,7 @@
 
 #include "windlass/chain/guess.hpp"
 #include "windlass/equilibrium/rod_problem.hpp"
+#include "windlass/equilibrium/start.hpp"
 #include "windlass/rod/capstan.hpp"
 
 namespace {
@@ -31,9 +32,48 @@ double total_force(bool spatial, int stages, int elements) {
   return problem.target(problem.chain(), x, problem.loads(p));
 }
 
+/// The crossing's force of a thick 2π coil (R/r = 2.5) on uniform meshes, from the state that the program finds.
+double crossing_force(const equilibrium::Started& found, const scene::Scene& scene, int stages,
+                      int elements) {
+  const equilibrium::RodProblem& exact = *found.problem;
+  const std::vector<chain::ArcMesh> meshes(exact.chain().link_count(),
+                                           {chain::uniform_mesh(elements), stages});
+  equilibrium::RodProblem problem(scene, true, exact.topology(), meshes, {"load.tension"});
+  Eigen::VectorXd x = chain::transfer_state(exact.chain(), problem.chain(), found.x, problem.loads(found.p));
+  BOOST_REQUIRE(problem.polish(x, found.p) >= 0);
+  for (const chain::Contact& contact : problem.profile(x, found.p).contacts)
+    if (contact.coupling >= 0) return contact.force;
+  BOOST_FAIL("no touch between strands");
+  return 0.0;
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(convergence)
+
+BOOST_AUTO_TEST_CASE(order_with_contact_of_the_rod_with_itself) {
+  scene::Scene scene;
+  scene.has_cylinder = true;
+  scene.load.tension = 2.0;
+  scene.load.angle = 2.0 * M_PI;
+  scene.rod.length = 40.0;
+  scene.rod_radius = 2.0 / 7.0;
+  scene.self_contact = true;
+  scene.model.tolerance = 1e-12;
+  const equilibrium::Started found = equilibrium::cold_start(scene, true, true, {"load.tension"});
+  const double exact = crossing_force(found, scene, 6, 48);
+  for (int stages : {2, 3}) {
+    const int coarse = stages == 2 ? 64 : 36;
+    const double first = std::abs(crossing_force(found, scene, stages, coarse) - exact);
+    const double second = std::abs(crossing_force(found, scene, stages, 2 * coarse) - exact);
+    const double order = std::log2(first / second);
+    BOOST_TEST_CONTEXT("stages " << stages << ", errors " << first << " " << second) {
+      BOOST_TEST_MESSAGE("stages " << stages << ": order " << order);
+      BOOST_TEST(order > 2 * stages - 0.6);
+      BOOST_TEST(order < 2 * stages + 1.5);
+    }
+  }
+}
 
 BOOST_AUTO_TEST_CASE(order_is_twice_the_number_of_stages) {
   const double exact = rod::capstan::total_force(1.0, 2 * M_PI);
