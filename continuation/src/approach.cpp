@@ -29,7 +29,8 @@ Approach::Approach(Problem& problem, const Vector& guess, const Vector& p, const
 CorrectorReport Approach::solve_at(double value, Iterate& it) const {
   Vector at = p_;
   at[options_.parameter] = value;
-  it = {guess_, Vector::Zero(problem_.size()), at, Vector::Zero(1)};
+  const auto stop = at_stops_.find(value);
+  it = {stop != at_stops_.end() ? stop->second : guess_, Vector::Zero(problem_.size()), at, Vector::Zero(1)};
   return correct(problem_, fixed_parameter(problem_, options_), it, options_);
 }
 
@@ -38,8 +39,11 @@ std::vector<double> Approach::values(const Transition& transition, int& directio
   std::vector<double> out;
   if (transition.p.size() == p_.size()) {
     const double beside = transition.p[options_.parameter];
+    // The event's own place, where a walk from it begins, is none.
+    const double event = transition.located ? transition.located->p[options_.parameter] : here;
     for (const double stop : {options_.target, options_.lower, options_.upper})
-      if ((here - stop) * (beside - stop) < 0.0 && go_back(beside, stop)) out.push_back(stop);
+      if (stop != event && (here - stop) * (beside - stop) < 0.0 && go_back(beside, stop))
+        out.push_back(stop);
     out.push_back(beside);
     if (beside != here) direction = beside < here ? -1 : 1;
   }
@@ -52,16 +56,16 @@ std::vector<double> Approach::values(const Transition& transition, int& directio
 
 bool Approach::go_back(double beside, double stop) {
   constexpr int steps = 8;
-  const Vector before = guess_;
+  const Vector entered = guess_;
   Iterate it;
-  for (int k = 1; k <= steps; ++k) {
-    if (!solve_at(k == steps ? stop : beside + (stop - beside) * k / steps, it).converged) {
-      guess_ = before;
-      return false;
-    }
+  bool there = true;
+  for (int k = 1; there && k <= steps; ++k) {
+    there = solve_at(k == steps ? stop : beside + (stop - beside) * k / steps, it).converged;
     guess_ = it.x;
   }
-  return true;
+  guess_ = entered;
+  if (there) at_stops_[stop] = it.x;
+  return there;
 }
 
 }  // namespace continuation

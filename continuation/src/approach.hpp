@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "continuation/bordered_newton.hpp"
@@ -23,13 +24,17 @@ class Approach {
   /// @param step       the walk's, in the parameter
   std::vector<double> values(const Transition& transition, int& direction, double step);
 
+  /// So many of the first of them are stop values on the way to where the transition entered: the walk ends there.
+  std::size_t stops() const { return at_stops_.size(); }
+
  private:
-  /// Brings the guess to the stop value, or leaves it where it is.
+  /// Brings a guess to the stop value.
   bool go_back(double beside, double stop);
 
   Problem& problem_;
   Vector guess_, p_;
   Options options_;
+  std::map<double, Vector> at_stops_;  ///< guesses there
 };
 
 }  // namespace continuation

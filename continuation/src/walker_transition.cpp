@@ -169,7 +169,9 @@ bool Walker::enter(const Transition& transition, int direction, const std::strin
   const std::vector<double> values =
       approach.values(transition, direction, step_length_.current() * options_.parameter_scale);
   failure = "the new problem has no solution here";
-  for (const double value : values) {
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const double value = values[k];
+    const bool ends_here = k < approach.stops();
     Iterate it;
     const CorrectorReport report = approach.solve_at(value, it);
     if (!report.converged) {
@@ -180,7 +182,8 @@ bool Walker::enter(const Transition& transition, int direction, const std::strin
       for (const int sign : {direction, -direction}) {
         Tangent tangent = first_tangent(*problem, it.x, it.p, options_, sign);
         // The same curve, described otherwise: the parameter goes the same way.
-        if (transition.silent ? sign != direction : !valid_direction(problem, it.x, it.p, tangent, passed)) {
+        if (!ends_here && (transition.silent ? sign != direction
+                                             : !valid_direction(problem, it.x, it.p, tangent, passed))) {
           failure = "the new problem is not valid in either direction";
           continue;
         }

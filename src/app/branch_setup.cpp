@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/stored_point.hpp"
+#include "windlass/equilibrium/opening.hpp"
 #include "windlass/equilibrium/record.hpp"
 #include "windlass/scene/error.hpp"
 #include "windlass/scene/keys.hpp"
@@ -100,8 +101,11 @@ equilibrium::Started first_state(const BranchSetup& setup) {
   if (!setup.stored)
     return equilibrium::cold_start(setup.scene, needs_space(setup.scene), setup.scene.half_turn(), keys);
   const auto problem = equilibrium::reopen(setup.scene, *setup.stored, keys);
-  const equilibrium::Started start{problem, setup.stored->state, problem->parameters(), 0};
-  return setup.singular ? beside(start, setup.options.direction) : start;
+  equilibrium::Started start{problem, setup.stored->state, problem->parameters(), 0};
+  if (setup.singular) return beside(start, setup.options.direction);
+  if (!equilibrium::leave_event(*start.problem, start.x, start.p))
+    throw equilibrium::NoEquilibrium("no state was found beside the event");
+  return start;
 }
 
 }  // namespace windlass::app

@@ -287,6 +287,26 @@ std::vector<ContactEvent> approach_events(const Profile& profile, const Topology
   return events;
 }
 
+/// An arc that has no length left, as at the event itself, says nothing of what is at its ends or inside: that it gives way
+/// comes first.
+void heed_first_what_vanishes(std::vector<ContactEvent>& events, const Topology& topology) {
+  std::vector<int> gone;
+  for (const ContactEvent& event : events)
+    if (event.kind == Kind::length && event.value <= 0.0) gone.push_back(event.place);
+  const auto says_nothing = [&](const ContactEvent& event) {
+    const bool inside = event.kind == Kind::pressure || event.kind == Kind::suction;
+    if (!inside && event.kind != Kind::curvature && event.kind != Kind::reaction) return false;
+    return std::any_of(gone.begin(), gone.end(), [&](int link) {
+      const auto ends = [&](int joint) { return joint == link || joint == link + 1; };
+      if (inside) return event.place == link;
+      const int partner = topology.partner(event.place);
+      return ends(event.place) || (partner >= 0 && ends(partner));
+    });
+  };
+  for (ContactEvent& event : events)
+    if (says_nothing(event)) event.value = std::max(event.value, far);
+}
+
 }  // namespace
 
 std::string ContactEvent::name() const {
@@ -328,6 +348,7 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
   }
   const std::vector<ContactEvent> near = approach_events(profile, topology);
   events.insert(events.end(), near.begin(), near.end());
+  heed_first_what_vanishes(events, topology);
   return events;
 }
 

@@ -349,7 +349,8 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
     if (!first) first = transition;
     const bool shrinks = event.kind == Kind::length && straight_line(*this, event.place) >= 0;
     std::optional<Entry> found = enter(entry, event, next, shrinks, transition.precision);
-    if (!found || !tried([&] { return found->problem->settle(found->x, found->p), true; })) continue;
+    if (!found || found->problem->topology() == topology_) continue;  // back where it came from
+    if (!tried([&] { return found->problem->settle(found->x, found->p), true; })) continue;
     const auto here = std::static_pointer_cast<RodProblem>(clone());
     if (event.kind == Kind::length && transition.precision < 0.0 && topology_.beside_strand(event.place))
       transition.located = located_vanishing({here, x, p}, event.place);

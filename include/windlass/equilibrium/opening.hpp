@@ -67,6 +67,10 @@ struct Vanishing {
 std::optional<Vanishing> where_length_vanishes(RodProblem& problem, Vector x, Vector p, int link,
                                                double shortest);
 
+/// An event's own state, in which a link beside a touch of strands has no length, is no start: gives it some, p(0) free.
+/// @returns false where Newton fails
+bool leave_event(RodProblem& problem, Vector& x, Vector& p);
+
 /// Lets a straight link bow off its obstacle, which it does at its buckling load: solves, p(0) free, for a state with a
 /// slight bow. A link that is straight solves the same equations at any load, so the bow is prescribed.
 /// @returns whether Newton converged
