@@ -29,8 +29,16 @@ Approach::Approach(Problem& problem, const Vector& guess, const Vector& p, const
 CorrectorReport Approach::solve_at(double value, Iterate& it) const {
   Vector at = p_;
   at[options_.parameter] = value;
-  const auto stop = at_stops_.find(value);
-  it = {stop != at_stops_.end() ? stop->second : guess_, Vector::Zero(problem_.size()), at, Vector::Zero(1)};
+  it = {guess_, Vector::Zero(problem_.size()), at, Vector::Zero(1)};
+  // What was solved for otherwise, the length of a new arc held and p free, may be beyond Newton's reach at a fixed p.
+  const Vector residual = problem_.residual(guess_, at);
+  if (value == proposed_ &&
+      (residual.size() == 0 ||
+       residual.lpNorm<Eigen::Infinity>() <= options_.residual_tolerance * options_.residual_scale)) {
+    CorrectorReport solved;
+    solved.converged = true;
+    return solved;
+  }
   return correct(problem_, fixed_parameter(problem_, options_), it, options_);
 }
 
@@ -39,12 +47,8 @@ std::vector<double> Approach::values(const Transition& transition, int& directio
   std::vector<double> out;
   if (transition.p.size() == p_.size()) {
     const double beside = transition.p[options_.parameter];
-    // The event's own place, where a walk from it begins, is none.
-    const double event = transition.located ? transition.located->p[options_.parameter] : here;
-    for (const double stop : {options_.target, options_.lower, options_.upper})
-      if (stop != event && (here - stop) * (beside - stop) < 0.0 && go_back(beside, stop))
-        out.push_back(stop);
     out.push_back(beside);
+    proposed_ = beside;
     if (beside != here) direction = beside < here ? -1 : 1;
   }
   out.push_back(here);
@@ -52,20 +56,6 @@ std::vector<double> Approach::values(const Transition& transition, int& directio
     for (const double size : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) out.push_back(here + sign * size * step);
   }
   return out;
-}
-
-bool Approach::go_back(double beside, double stop) {
-  constexpr int steps = 8;
-  const Vector entered = guess_;
-  Iterate it;
-  bool there = true;
-  for (int k = 1; there && k <= steps; ++k) {
-    there = solve_at(k == steps ? stop : beside + (stop - beside) * k / steps, it).converged;
-    guess_ = it.x;
-  }
-  guess_ = entered;
-  if (there) at_stops_[stop] = it.x;
-  return there;
 }
 
 }  // namespace continuation

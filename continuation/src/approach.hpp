@@ -1,6 +1,6 @@
 #pragma once
 
-#include <map>
+#include <optional>
 #include <vector>
 
 #include "continuation/bordered_newton.hpp"
@@ -17,24 +17,17 @@ class Approach {
   /// With the parameter held at a value.
   CorrectorReport solve_at(double value, Iterate& it) const;
 
-  /// Values of the parameter in the order in which they are tried: a stop value between the event and where
-  /// the state was proposed (the guess goes there with it), that place, the event itself, and a little beside
-  /// it.
+  /// Values of the parameter in the order in which they are tried: where the state was proposed, the event itself, and a
+  /// little beside it.
   /// @param direction  of the parameter; becomes the one away from the event
   /// @param step       the walk's, in the parameter
   std::vector<double> values(const Transition& transition, int& direction, double step);
 
-  /// So many of the first of them are stop values on the way to where the transition entered: the walk ends there.
-  std::size_t stops() const { return at_stops_.size(); }
-
  private:
-  /// Brings a guess to the stop value.
-  bool go_back(double beside, double stop);
-
   Problem& problem_;
   Vector guess_, p_;
   Options options_;
-  std::map<double, Vector> at_stops_;  ///< guesses there
+  std::optional<double> proposed_;  ///< the value at which the guess was proposed
 };
 
 }  // namespace continuation

@@ -137,6 +137,20 @@ bool Walker::find_functions(Segment& segment, Sample*& end, End& reason, std::op
   return true;
 }
 
+// The solution at a value of p that two samples lie to either side of; null where it cannot be found.
+Sample* Walker::solution_at(Segment& segment, double value, const Sample& lo, const Sample& hi) {
+  Sample* sample = segment.at_parameter(value, lo, hi, true);
+  if (sample && sample->s >= lo.s && sample->s <= hi.s) return sample;
+  const Bracket bracket = find_zero(lo.s, segment.parameter(lo) - value, hi.s, segment.parameter(hi) - value,
+                                    1e-12, [&](double s) -> std::optional<double> {
+                                      const Sample* middle = segment.at(s, false);
+                                      if (!middle) return std::nullopt;
+                                      return segment.parameter(*middle) - value;
+                                    });
+  sample = segment.at(bracket.best, true);
+  return bracket.converged ? sample : nullptr;
+}
+
 // Shortens the step to where p meets a stop value, if it does; false where that solution cannot be found.
 bool Walker::limit(Segment& segment, Sample*& end, Located* fold, End& reason) {
   const std::pair<double, const char*> stops[] = {
@@ -145,18 +159,8 @@ bool Walker::limit(Segment& segment, Sample*& end, Located* fold, End& reason) {
   const auto check = [&](const Sample& lo, Sample& hi) {
     for (const auto& [value, what] : stops) {
       if (!crosses(segment, lo, hi, value)) continue;
-      Sample* sample = segment.at_parameter(value, lo, hi, true);
-      if (!sample || sample->s < lo.s || sample->s > hi.s) {
-        const Bracket bracket =
-            find_zero(lo.s, segment.parameter(lo) - value, hi.s, segment.parameter(hi) - value, 1e-12,
-                      [&](double s) -> std::optional<double> {
-                        const Sample* middle = segment.at(s, false);
-                        if (!middle) return std::nullopt;
-                        return segment.parameter(*middle) - value;
-                      });
-        sample = segment.at(bracket.best, true);
-        if (!bracket.converged || !sample) return false;
-      }
+      Sample* sample = solution_at(segment, value, lo, hi);
+      if (!sample) return false;
       if (!reason || sample->s < end->s) {
         end = sample;
         reason = End{value == options_.target ? End::Kind::target : End::Kind::bound,

@@ -149,15 +149,52 @@ void Walker::pass(Point event, std::size_t which, const std::string& name, int d
     event.precision = located->precision;
   }
   say_what_follows(event);
-  const double before = event.p[options_.parameter];
+  const double before = event.p[options_.parameter], precision = std::max(event.precision, 0.0);
   if (!transition->silent) queue_.push_back(std::move(event));
+  stop_before_entry(before, precision);
+}
+
+// The branch went on a little beyond the event: a stop value in between is met on the way back to it.
+void Walker::stop_before_entry(double event, double precision) {
+  // A walk that begins at the event has it for a bound, found anew.
+  const double same = std::max(precision, 1e-10 * std::max(1.0, std::abs(event)));
   for (const double stop : {options_.target, options_.lower, options_.upper}) {
-    if (parameter(state_.p) != stop || stop == before) continue;  // entered beside the event, at a stop value
+    const double entered = parameter(state_.p);
+    if (!((event - stop) * (entered - stop) <= 0.0) || std::abs(stop - event) <= same) continue;
+    if (stop != entered && !walk_back_to(stop)) {
+      pending_end_ = End{End::Kind::lost, "no state was found between an event and where the branch goes on"};
+      return;
+    }
     queue_.push_back(here(PointType::end));
     pending_end_ = stop == options_.target ? End{End::Kind::target, "target reached"}
                                            : End{End::Kind::bound, "bound reached"};
     return;
   }
+}
+
+bool Walker::walk_back_to(double stop) {
+  const double way = stop - parameter(state_.p);
+  Tangent back = state_.tangent;
+  if (way * back.p < 0.0) back.x = -back.x, back.p = -back.p;
+  if (back.p == 0.0) return false;
+  try {
+    Segment segment(state_.problem, options_, state_.x, state_.p, back);
+    // The parameter may change less and less towards the event.
+    for (const double longer : {1.0, 1.5, 2.0, 3.0}) {
+      Sample* end = segment.at(longer * way / back.p, false);
+      if (!end) return false;
+      Sample* sample = way * (segment.parameter(*end) - stop) >= 0.0
+                           ? solution_at(segment, stop, segment.base(), *end)
+                           : nullptr;
+      if (!sample) continue;
+      segment.add_events(*sample);
+      settle(segment, *sample);
+      return true;
+    }
+  } catch (const std::domain_error&) {
+  } catch (const std::runtime_error&) {
+  }
+  return false;
 }
 
 // Corrects the new problem's state at p, or slightly beyond, and finds the direction in which it is valid.
@@ -169,9 +206,7 @@ bool Walker::enter(const Transition& transition, int direction, const std::strin
   const std::vector<double> values =
       approach.values(transition, direction, step_length_.current() * options_.parameter_scale);
   failure = "the new problem has no solution here";
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    const double value = values[k];
-    const bool ends_here = k < approach.stops();
+  for (const double value : values) {
     Iterate it;
     const CorrectorReport report = approach.solve_at(value, it);
     if (!report.converged) {
@@ -182,8 +217,7 @@ bool Walker::enter(const Transition& transition, int direction, const std::strin
       for (const int sign : {direction, -direction}) {
         Tangent tangent = first_tangent(*problem, it.x, it.p, options_, sign);
         // The same curve, described otherwise: the parameter goes the same way.
-        if (!ends_here && (transition.silent ? sign != direction
-                                             : !valid_direction(problem, it.x, it.p, tangent, passed))) {
+        if (transition.silent ? sign != direction : !valid_direction(problem, it.x, it.p, tangent, passed)) {
           failure = "the new problem is not valid in either direction";
           continue;
         }

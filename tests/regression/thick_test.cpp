@@ -123,6 +123,34 @@ BOOST_AUTO_TEST_CASE(turns_come_to_lie_side_by_side) {
 }
 
 // A thinner and thinner rod is the thin one: R_tot differs by the square of the radius.
+// Where an arc beside a touch vanishes the event's own state has an arc without length, and the branch goes on a little
+// beyond: a run from there, and targets in between.
+BOOST_AUTO_TEST_CASE(a_run_begins_at_an_event_and_ends_beside_it) {
+  struct Case {
+    Coil coil;
+    double radius, from;
+  };
+  for (const Case& c : {Case{one_turn, 2.0 / 7.0, 13.0}, Case{two_turns, 1.0 / 6.0, 2.6}}) {
+    const TemporaryFolder folder;
+    const Table table = follow(folder, c.coil, c.radius, c.from, 0.9 * c.from);
+    const std::vector<double> found = events(table);
+    BOOST_REQUIRE(!found.empty());
+    const double event = found.back();
+    for (const double beyond : {3e-6, 1e-4, 3e-3}) {
+      const Outcome outcome =
+          run_program({"continue", "run", "E1", "--set", "continuation.to=" + std::to_string(event - beyond),
+                       "--out", "beside", "--force", "--quiet", "--no-eigenvalues"},
+                      folder.path());
+      BOOST_TEST_CONTEXT("radius " << c.radius << ", " << beyond << " below " << event) {
+        BOOST_TEST(outcome.status == 0, outcome.err);
+        const Table beside = read_csv(folder.path() / "beside" / "branches.csv");
+        BOOST_TEST(std::abs(std::stod(beside.rows.back().at("T")) - (event - beyond)) < 1e-6);  // as printed
+        BOOST_TEST(beside.rows.size() <= 8u);
+      }
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(the_limit_of_a_thin_rod) {
   const double thin = solved(one_turn, 0.0, {"rod.self_contact=false", "load.tension=2"}).at("R_tot");
   const auto beyond = [&](double radius) {
