@@ -30,8 +30,8 @@ struct Discovery {
   bool converged = false;
   double R_tot = 0.0;  ///< sum of all contact forces of the whole rod [EI/ρ²]
   std::vector<double> s, theta, x, y;
-  std::vector<double> gap;         ///< √(x² + y²) − 1
-  std::vector<double> force;       ///< nodal contact forces; at s = 0 half of it
+  std::vector<double> gap;             ///< √(x² + y²) − 1
+  std::vector<double> force;           ///< nodal contact forces; at s = 0 half of it
   std::vector<NodalContact> contacts;  ///< by increasing s
 };
 
