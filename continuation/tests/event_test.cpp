@@ -150,6 +150,40 @@ BOOST_AUTO_TEST_CASE(branch_may_turn_back_at_an_event) {
   BOOST_TEST(std::abs(points.back().x[0] - 2.0) < 1e-10);
 }
 
+// Beyond x = p = 1/2 the law is p = 1/2 + (x - 1/2)², and the branch goes on at x = 0.7, p = 0.54.
+BOOST_AUTO_TEST_CASE(a_stop_value_before_the_branch_goes_on_is_met) {
+  for (const double least : {0.5, 0.65}) {  // below it the second law says nothing
+    auto first = scalar([](double x, const Vector& p) { return x - p[0]; });
+    first->events_of = [](const Vector& x, const Vector&) {
+      return std::vector<EventFunction>{{"first", 0.5 - x[0]}};
+    };
+    auto second = scalar([least](double x, const Vector& p) {
+      if (x < least) throw std::domain_error("undefined");
+      return std::pow(x - 0.5, 2) + 0.5 - p[0];
+    });
+    second->events_of = [](const Vector& x, const Vector&) {
+      return std::vector<EventFunction>{{"second", x[0] - 0.5}};
+    };
+    first->transition_of = [second](std::size_t, const Vector&, const Vector&) {
+      return std::optional(Transition{second, vector({0.7}), "first", "second", vector({0.54})});
+    };
+    Options options;
+    options.target = 0.51;
+    Walker walker(first, vector({0.0}), vector({0.0}), options);
+    const auto points = walk(walker);
+    BOOST_TEST_CONTEXT("the second law begins at " << least) {
+      if (least > 0.6) {
+        BOOST_TEST(walker.end().lost());
+        continue;
+      }
+      BOOST_TEST((walker.end().kind == End::Kind::target));
+      BOOST_TEST(points.back().p[0] == 0.51);
+      BOOST_TEST(std::abs(points.back().x[0] - 0.6) < 1e-9);
+      BOOST_TEST(of_type(points, PointType::event).size() == 1u);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(event_with_no_valid_side_is_lost) {
   auto first = free_spring();
   first->transition_of = [](std::size_t, const Vector& x, const Vector&) {

@@ -44,7 +44,7 @@ std::string panel(const std::string& file, const char* third) {
   const std::string titles[] = {"the crossing opens", "a touch becomes two", third};
   std::string text = "  plot ";
   for (int k = 0; k < 3; ++k)
-    text += fmt::format("{}'{}' using {}:1 with linespoints pt 7 ps 0.7 lw 2 lc rgb '{}' title '{}'",
+    text += fmt::format("{}'{}' using (${}):1 with linespoints pt 7 ps 0.7 lw 2 lc rgb '{}' title '{}'",
                         k == 0 ? "" : ", \\\n    ", file, k + 2, colours[k], titles[k]);
   return text + "\n";
 }
@@ -95,7 +95,7 @@ Figure crossing_map(const Study& study, const Canvas& canvas) {
       fmt::format(
           "Circles: events of continuation runs in T, each located to {:.0e} of T; the lines between them "
           "only guide the eye. Beyond the blue curve, at higher tension, strands touch. Runs go to T = 40, "
-          "those of one turn with R/r below 2 to T = 20; what is not marked was not met there.",
+          "those of one turn with R/r below 2 to T = 20; what is not marked was not met there, or lies beyond where a run ends (below).",
           least_precision(study, runs)),
       runs,
       {row("φ = 2π: the crossing is one touch above", listed(study, one_turn, &StrandEvents::opens)),
@@ -108,7 +108,7 @@ Figure crossing_map(const Study& study, const Canvas& canvas) {
        row("φ = 4π: it touches it twice, above", listed(study, two_turns_events, &StrandEvents::splits)),
        row("φ = 4π: neighbouring turns touch, above",
            listed(study, two_turns_events, &StrandEvents::turns_meet),
-           "there the runs end: turns that lie on each other along lines are not modelled")}};
+           "soon after they lie on each other along lines")}};
 }
 
 }  // namespace windlass::figures

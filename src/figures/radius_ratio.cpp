@@ -66,8 +66,8 @@ std::vector<Statement> strength_statements(const Study& study, const std::vector
            Verdict::remark, ""},
           {"R/r = 1, 2.5, 5 up to the highest tensions of the experiments", "computed: " + reach(list),
            Verdict::remark,
-           "where a curve ends neighbouring turns come to touch (filled circle), and then lie on each other "
-           "along lines, which are not modelled"},
+           "where a curve ends (filled circle) before, the contact of neighbouring turns changes in a way "
+           "that could not be followed: the runs below say how"},
           {"the same collapse for the clove hitch", "not computed", Verdict::remark, ""}};
 }
 
@@ -98,8 +98,8 @@ Figure radius_ratio(const Study& study, const Canvas& canvas) {
   output::run_gnuplot(picture, canvas.folder, canvas.formats);
   return {
       "radius-ratio", "Strength at φ = 4π for three ratios of radii (the paper's first appendix)",
-      "F0/μ = R_tot, all forces of the cylinder on a rod that touches itself. A curve ends in a circle where "
-      "neighbouring turns meet. Numbers at a tension are interpolated between computed states.",
+      "F0/μ = R_tot, all forces of the cylinder on a rod that touches itself. A circle is the last "
+      "state computed. Numbers at a tension are interpolated between computed states.",
       runs(list), strength_statements(study, list)};
 }
 

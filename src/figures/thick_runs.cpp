@@ -100,9 +100,7 @@ std::vector<TwoTurns> two_turns(const Study& study, const Thickness& thickness) 
         {row.T, row.R_tot, 2.0 * row.phi_star, line_angle(run.points.get(*point)), row.topology});
   };
   for (auto row = down.rows.rbegin(); row != down.rows.rend(); ++row) add(down, *row);
-  const double end = events_of(up.special_points).turns_meet.value_or(HUGE_VAL);
-  for (const output::BranchRow& row : up.rows)
-    if (row.T <= end) add(up, row);
+  for (const output::BranchRow& row : up.rows) add(up, row);
   return states;
 }
 

@@ -43,8 +43,7 @@ struct TwoTurns {
   std::string topology;
 };
 
-/// Of both runs of two turns, from low tension up, to where neighbouring turns meet or the run ends: beyond,
-/// strands lie on each other along lines, which are not modelled.
+/// Of both runs of two turns, from low tension up, to the highest or where the run ends.
 std::vector<TwoTurns> two_turns(const Study& study, const Thickness& thickness);
 
 /// Between the states, linear in log R_tot and log T, and in the angles; nullopt outside them.
