@@ -26,18 +26,17 @@ Approach::Approach(Problem& problem, const Vector& guess, const Vector& p, const
   options_.max_newton = std::max(options_.max_newton, 15);
 }
 
-CorrectorReport Approach::solve_at(double value, Iterate& it) const {
+CorrectorReport Approach::solve_at(double value, Iterate& it, bool as_proposed) const {
   Vector at = p_;
   at[options_.parameter] = value;
   it = {guess_, Vector::Zero(problem_.size()), at, Vector::Zero(1)};
-  // What was solved for otherwise, the length of a new arc held and p free, may be beyond Newton's reach at a fixed p.
-  const Vector residual = problem_.residual(guess_, at);
-  if (value == proposed_ &&
-      (residual.size() == 0 ||
-       residual.lpNorm<Eigen::Infinity>() <= options_.residual_tolerance * options_.residual_scale)) {
-    CorrectorReport solved;
-    solved.converged = true;
-    return solved;
+  if (as_proposed) {
+    const Vector residual = problem_.residual(guess_, at);
+    CorrectorReport report;
+    report.converged = residual.size() == 0 || residual.lpNorm<Eigen::Infinity>() <=
+                                                   options_.residual_tolerance * options_.residual_scale;
+    report.failure = "the state proposed is no solution";
+    return report;
   }
   return correct(problem_, fixed_parameter(problem_, options_), it, options_);
 }
@@ -48,13 +47,13 @@ std::vector<double> Approach::values(const Transition& transition, int& directio
   if (transition.p.size() == p_.size()) {
     const double beside = transition.p[options_.parameter];
     out.push_back(beside);
-    proposed_ = beside;
     if (beside != here) direction = beside < here ? -1 : 1;
   }
   out.push_back(here);
   for (const int sign : {direction, -direction}) {
     for (const double size : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) out.push_back(here + sign * size * step);
   }
+  out.push_back(transition.p.size() == p_.size() ? transition.p[options_.parameter] : here);
   return out;
 }
 

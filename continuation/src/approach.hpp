@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "continuation/bordered_newton.hpp"
@@ -14,11 +13,12 @@ class Approach {
   /// The problem must stay while this is in use. @param p  at the event
   Approach(Problem& problem, const Vector& guess, const Vector& p, const Options& options);
 
-  /// With the parameter held at a value.
-  CorrectorReport solve_at(double value, Iterate& it) const;
+  /// With the parameter held at a value. @param as_proposed  the state that was proposed, if it is a solution: one that was
+  /// solved for otherwise, the length of a new arc held and p free, may be beyond Newton's reach at a fixed p
+  CorrectorReport solve_at(double value, Iterate& it, bool as_proposed) const;
 
-  /// Values of the parameter in the order in which they are tried: where the state was proposed, the event itself, and a
-  /// little beside it.
+  /// Values of the parameter in the order in which they are tried: where the state was proposed, the event itself, a little
+  /// beside it, and last the first again, for the state as it was proposed.
   /// @param direction  of the parameter; becomes the one away from the event
   /// @param step       the walk's, in the parameter
   std::vector<double> values(const Transition& transition, int& direction, double step);
@@ -27,7 +27,6 @@ class Approach {
   Problem& problem_;
   Vector guess_, p_;
   Options options_;
-  std::optional<double> proposed_;  ///< the value at which the guess was proposed
 };
 
 }  // namespace continuation

@@ -206,11 +206,13 @@ bool Walker::enter(const Transition& transition, int direction, const std::strin
   const std::vector<double> values =
       approach.values(transition, direction, step_length_.current() * options_.parameter_scale);
   failure = "the new problem has no solution here";
-  for (const double value : values) {
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const double value = values[k];
     Iterate it;
-    const CorrectorReport report = approach.solve_at(value, it);
+    const CorrectorReport report = approach.solve_at(value, it, k + 1 == values.size());
     if (!report.converged) {
-      if (value == here) failure = "the new problem cannot be solved: " + report.failure;
+      if (value == here && k + 1 < values.size())
+        failure = "the new problem cannot be solved: " + report.failure;
       continue;
     }
     try {

@@ -169,11 +169,13 @@ double to_the_end(RodProblem& problem, const Vector& x, const Vector& p, int lin
 /// Brings an opened arc to the length that it is entered with, as far as the contacts hold: longer ones lie further from
 /// the event, in shorter ones rounding moves the edges, by its size over the edges' force, length³.
 void adjust_length(Entry& entry, int link) {
-  const bool strand = entry.problem->topology().beside_strand(link);
+  // Where a line between strands begins, its two touches can hardly be told from one, as those of a gap between two.
+  const chain::Topology& topology = entry.problem->topology();
+  const bool line = topology.run(link).count > 0, strand = !line && topology.beside_strand(link);
   const double factor = strand ? 4.0 : 1.5;
   const chain::Chain& chain = entry.problem->chain();
   const auto is_touch = [&](int joint) { return chain.joint(joint).kind() == contact::JointKind::touch; };
-  const double shortest = is_touch(link) && is_touch(link + 1) ? 2.0 * least_between_touches : 0.06;
+  const double shortest = line || (is_touch(link) && is_touch(link + 1)) ? 2.0 * least_between_touches : 0.06;
   const double entered =
       strand ? entered_beside_strand(*entry.problem) : shortest * entry.problem->rod().unit_length;
   const double now = length_of(entry, link);
@@ -349,7 +351,8 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
     if (!first) first = transition;
     const bool shrinks = event.kind == Kind::length && straight_line(*this, event.place) >= 0;
     std::optional<Entry> found = enter(entry, event, next, shrinks, transition.precision);
-    if (!found || found->problem->topology() == topology_) continue;  // back where it came from
+    if (!found || (!event.redrawn && found->problem->topology() == topology_))
+      continue;  // not where it came from
     if (!tried([&] { return found->problem->settle(found->x, found->p), true; })) continue;
     const auto here = std::static_pointer_cast<RodProblem>(clone());
     if (event.kind == Kind::length && transition.precision < 0.0 && topology_.beside_strand(event.place))

@@ -95,7 +95,8 @@ Figure crossing_map(const Study& study, const Canvas& canvas) {
       fmt::format(
           "Circles: events of continuation runs in T, each located to {:.0e} of T; the lines between them "
           "only guide the eye. Beyond the blue curve, at higher tension, strands touch. Runs go to T = 40, "
-          "those of one turn with R/r below 2 to T = 20; what is not marked was not met there, or lies beyond where a run ends (below).",
+          "those of one turn with R/r below 2 to T = 20; what is not marked was not met there, or lies "
+          "beyond where a run ends (below).",
           least_precision(study, runs)),
       runs,
       {row("φ = 2π: the crossing is one touch above", listed(study, one_turn, &StrandEvents::opens)),

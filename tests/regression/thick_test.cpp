@@ -122,7 +122,6 @@ BOOST_AUTO_TEST_CASE(turns_come_to_lie_side_by_side) {
       BOOST_TEST(std::stod(row.at("self_distance")) == 2.0 * radius, boost::test_tools::tolerance(2e-9));
 }
 
-// A thinner and thinner rod is the thin one: R_tot differs by the square of the radius.
 // Where an arc beside a touch vanishes the event's own state has an arc without length, and the branch goes on a little
 // beyond: a run from there, and targets in between.
 BOOST_AUTO_TEST_CASE(a_run_begins_at_an_event_and_ends_beside_it) {
@@ -151,6 +150,7 @@ BOOST_AUTO_TEST_CASE(a_run_begins_at_an_event_and_ends_beside_it) {
   }
 }
 
+// A thinner and thinner rod is the thin one: R_tot differs by the square of the radius.
 BOOST_AUTO_TEST_CASE(the_limit_of_a_thin_rod) {
   const double thin = solved(one_turn, 0.0, {"rod.self_contact=false", "load.tension=2"}).at("R_tot");
   const auto beyond = [&](double radius) {
