@@ -96,11 +96,10 @@ Figure radius_ratio(const Study& study, const Canvas& canvas) {
   picture.body += "  plot 1 with lines lw 9 lc rgb '#d0d0d0'" + curves(list, "1:($2/R($1,4*pi))", false) +
                   ends("1:($2/R($1,4*pi))") + "  unset multiplot\n";
   output::run_gnuplot(picture, canvas.folder, canvas.formats);
-  return {
-      "radius-ratio", "Strength at φ = 4π for three ratios of radii (the paper's first appendix)",
-      "F0/μ = R_tot, all forces of the cylinder on a rod that touches itself. A circle is the last "
-      "state computed. Numbers at a tension are interpolated between computed states.",
-      runs(list), strength_statements(study, list)};
+  return {"radius-ratio", "Strength at φ = 4π for three ratios of radii (the paper's first appendix)",
+          "F0/μ = R_tot, all forces of the cylinder on a rod that touches itself. A circle is the last "
+          "state computed. Numbers at a tension are interpolated between computed states.",
+          runs(list), strength_statements(study, list)};
 }
 
 }  // namespace windlass::figures
