@@ -287,19 +287,18 @@ std::vector<ContactEvent> approach_events(const Profile& profile, const Topology
   return events;
 }
 
-/// An arc that has no length left, as at the event itself, says nothing of what is at its ends or inside: that it gives way
-/// comes first.
+/// An arc beside a touch of strands that has no length left, as at the event itself, says nothing of the touches at its ends:
+/// that it gives way comes first.
 void heed_first_what_vanishes(std::vector<ContactEvent>& events, const Topology& topology) {
   std::vector<int> gone;
   for (const ContactEvent& event : events)
-    if (event.kind == Kind::length && event.value <= 0.0) gone.push_back(event.place);
+    if (event.kind == Kind::length && event.value <= 0.0 && topology.beside_strand(event.place))
+      gone.push_back(event.place);
   const auto says_nothing = [&](const ContactEvent& event) {
-    const bool inside = event.kind == Kind::pressure || event.kind == Kind::suction;
-    if (!inside && event.kind != Kind::curvature && event.kind != Kind::reaction) return false;
+    if (event.kind != Kind::curvature && event.kind != Kind::reaction) return false;
+    const int partner = topology.partner(event.place);
     return std::any_of(gone.begin(), gone.end(), [&](int link) {
       const auto ends = [&](int joint) { return joint == link || joint == link + 1; };
-      if (inside) return event.place == link;
-      const int partner = topology.partner(event.place);
       return ends(event.place) || (partner >= 0 && ends(partner));
     });
   };
