@@ -74,7 +74,8 @@ Figure crossing_map(const Study& study, const Canvas& canvas) {
   output::replace_file(canvas.folder / "crossing-map-2pi.dat", std::string_view(table(study, true)));
   output::replace_file(canvas.folder / "crossing-map-4pi.dat", std::string_view(table(study, false)));
   output::Picture picture{"crossing-map", 9.0, 4.4, opening};
-  picture.body += tension_axis(1.0, 40) +
+  // What is not known interrupts a line; what is missing would be passed over.
+  picture.body += "  set datafile missing\n" + tension_axis(1.0, 40) +
                   "  set log y\n  set yrange [0.9:16.5]\n  set ytics (1, 1.5, 2.5, 4, 5, 7, 10, 15)\n";
   picture.body +=
       "  set ylabel 'R/r' offset 1,0\n  set key at graph 0.13, graph 0.97 left top reverse Left samplen 2\n";

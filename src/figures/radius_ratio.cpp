@@ -91,7 +91,7 @@ Figure radius_ratio(const Study& study, const Canvas& canvas) {
                   curves(list, "1:2", true) + ", \\\n    " +
                   item("4pi", 4, 2, "lw 1.2 dt (3,6) lc rgb 'black' title 'thin rod, helical'") + ends("1:2");
   picture.body +=
-      tension_axis(1, 15) + "  unset log y\n  set yrange [0.99:1.08]\n  unset key\n  unset ylabel\n" +
+      tension_axis(1, 40) + "  unset log y\n  set yrange [0.98:1.08]\n  unset key\n  unset ylabel\n" +
       output::margins(0.57, 0.98, 0.14, 0.9) + panel_letter('b', "the same, over that of the flat coil");
   picture.body += "  plot 1 with lines lw 9 lc rgb '#d0d0d0'" + curves(list, "1:($2/R($1,4*pi))", false) +
                   ends("1:($2/R($1,4*pi))") + "  unset multiplot\n";
