@@ -31,10 +31,8 @@ CorrectorReport Approach::solve_at(double value, Iterate& it, bool as_proposed) 
   at[options_.parameter] = value;
   it = {guess_, Vector::Zero(problem_.size()), at, Vector::Zero(1)};
   if (as_proposed) {
-    const Vector residual = problem_.residual(guess_, at);
     CorrectorReport report;
-    report.converged = residual.size() == 0 || residual.lpNorm<Eigen::Infinity>() <=
-                                                   options_.residual_tolerance * options_.residual_scale;
+    report.converged = is_solution(problem_, guess_, at, options_);
     report.failure = "the state proposed is no solution";
     return report;
   }

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "continuation/corrector.hpp"
 #include "continuation/walker.hpp"
 
 namespace continuation {
@@ -121,10 +122,7 @@ bool Walker::start_singular() {
 // A singular state that was handed over with its tangent is kept as it is, if it is a solution.
 bool Walker::start_at_given() {
   try {
-    const Vector residual = state_.problem->residual(state_.x, state_.p);
-    if (!(residual.size() == 0 ||
-          residual.lpNorm<Eigen::Infinity>() <= options_.residual_tolerance * options_.residual_scale))
-      return false;
+    if (!is_solution(*state_.problem, state_.x, state_.p, options_)) return false;
     start_at(state_.x, state_.p, Tangent(state_.tangent));
     return true;
   } catch (const std::domain_error&) {

@@ -290,10 +290,7 @@ std::vector<ContactEvent> approach_events(const Profile& profile, const Topology
 /// An arc beside a touch of strands that has no length left, as at the event itself, says nothing of the touches at its ends:
 /// that it gives way comes first.
 void heed_first_what_vanishes(std::vector<ContactEvent>& events, const Topology& topology) {
-  std::vector<int> gone;
-  for (const ContactEvent& event : events)
-    if (event.kind == Kind::length && event.value <= 0.0 && topology.beside_strand(event.place))
-      gone.push_back(event.place);
+  const std::vector<int> gone = vanished_beside_strands(events, topology);
   const auto says_nothing = [&](const ContactEvent& event) {
     if (event.kind != Kind::curvature && event.kind != Kind::reaction) return false;
     const int partner = topology.partner(event.place);
@@ -316,6 +313,14 @@ std::string ContactEvent::name() const {
   if (kind == Kind::approach)
     return name + " to " + std::to_string(named < 0 ? other : named_other) + (mirrored ? "'" : "");
   return obstacle == 0 ? name : name + ":" + std::to_string(obstacle + 1);
+}
+
+std::vector<int> vanished_beside_strands(const std::vector<ContactEvent>& events, const Topology& topology) {
+  std::vector<int> links;
+  for (const ContactEvent& event : events)
+    if (event.kind == Kind::length && event.value <= 0.0 && topology.beside_strand(event.place))
+      links.push_back(event.place);
+  return links;
 }
 
 std::vector<ContactEvent> contact_events(const Profile& profile, const Topology& topology) {

@@ -10,14 +10,12 @@ namespace windlass::equilibrium {
 
 namespace {
 
-using Contact = NodalContact;
-
 /// Contacts of the half rod, from the mid-point outward, as a draft of its arcs.
 Draft draft_of(const Discovery& found, double half_length) {
   Draft draft;
   draft.s.push_back(0.0);
-  for (const Contact& contact : found.contacts) {
-    const bool line = contact.kind == Contact::Kind::line;
+  for (const NodalContact& contact : found.contacts) {
+    const bool line = contact.kind == NodalContact::Kind::line;
     if (contact.s_begin > 0.0) {  // else it lies across the mid-point
       draft.right.push_back(chain::Stretch::gap);
       draft.s.push_back(contact.s_begin);

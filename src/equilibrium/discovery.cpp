@@ -166,7 +166,7 @@ bool descend(NodalRod& rod, double angle, const DiscoveryOptions& options, Vecto
   return true;
 }
 
-NodalContact stretch(const Discovery& d, const std::vector<double>& angle, int first, int last) {
+NodalContact contact_of(const Discovery& d, const std::vector<double>& angle, int first, int last) {
   NodalContact out;
   double moment_s = 0.0, moment_angle = 0.0;
   for (int k = first; k <= last; ++k) {
@@ -217,7 +217,7 @@ Discovery describe(const NodalRod& rod, const VectorXd& x, double tension) {
     int last = k;
     for (; k < rod.nodes() && d.gap[k] < rod.near_contact(); ++k)
       if (touches(k)) last = k;
-    d.contacts.push_back(stretch(d, angle, first, last));
+    d.contacts.push_back(contact_of(d, angle, first, last));
   }
   return d;
 }

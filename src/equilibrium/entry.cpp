@@ -30,6 +30,16 @@ std::vector<double> inherited(const chain::Profile& shape, double begin, double 
 
 }  // namespace
 
+bool admissible(const std::vector<ContactEvent>& events) {
+  return std::all_of(events.begin(), events.end(), [](const ContactEvent& event) {
+    return event.passes || event.value >= (event.kind == ContactEvent::Kind::length ? 1e-6 : -1e-6);
+  });
+}
+
+bool holds(const Entry& entry) {
+  return admissible(contact_events(entry.problem->profile(entry.x, entry.p), entry.problem->topology()));
+}
+
 Entry draft(const RodProblem& from, const Successor& next, const chain::Profile& shape, const Vector& p) {
   std::vector<chain::ArcMesh> meshes;
   for (int source : next.source)

@@ -13,6 +13,10 @@ struct Entry {
   Vector x, p;
 };
 
+/// Can this state be the continuation? At the event itself forces vanish, to within rounding.
+bool admissible(const std::vector<ContactEvent>& events);
+bool holds(const Entry& entry);
+
 /// The successor's problem, with the old shape as guess.
 Entry draft(const RodProblem& from, const Successor& next, const chain::Profile& shape, const Vector& p);
 

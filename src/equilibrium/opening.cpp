@@ -204,13 +204,15 @@ std::optional<Vanishing> where_length_vanishes(RodProblem& problem, Vector x, Ve
   return Vanishing{limit.value, std::abs(limit.value - limit.before), limit_at_zero(states).value};
 }
 
+double entered_beside_strand(const RodProblem& problem) {
+  return 2.0 * least_beside_strand * problem.rod().unit_length;
+}
+
 bool leave_event(RodProblem& problem, Vector& x, Vector& p) {
-  const double enough = 2.0 * least_beside_strand * problem.rod().unit_length;
-  for (const ContactEvent& event : contact_events(problem.profile(x, p), problem.topology()))
-    if (event.kind == ContactEvent::Kind::length && event.value <= 0.0 &&
-        problem.topology().beside_strand(event.place))
-      return tried([&] { return solve_at_length(problem, x, p, event.place, enough); });
-  return true;
+  const std::vector<int> links =
+      vanished_beside_strands(contact_events(problem.profile(x, p), problem.topology()), problem.topology());
+  return links.empty() ||
+         tried([&] { return solve_at_length(problem, x, p, links.front(), entered_beside_strand(problem)); });
 }
 
 bool solve_in_place(RodProblem& problem, Vector& x, const Vector& p) {

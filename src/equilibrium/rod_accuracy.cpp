@@ -21,6 +21,10 @@ constexpr double safety = 2.0, rounding = 2e-14;
 /// left on several arcs adds up.
 constexpr double certificate_level = 5e-10;
 
+/// A tenth or a thirtieth is asked of a mesh: one that leaves more than this part of an error has met rounding, which
+/// changes by chance.
+constexpr double towards = 0.3;
+
 /// Growth lengths of an element: the certificate integrates from node to node, and errors grow by exp(3) at most. Elements
 /// of many (straight tails at high tension) are left whole; there it measures the distance to the nearest true trajectory
 /// instead.
@@ -134,7 +138,7 @@ double RodProblem::excess(const Vector& x, const Vector& p) {
 }
 
 void RodProblem::note_rounding(double error_before) {
-  constexpr double towards = 0.3, plausible = 1e-10;  // a tenth or less was asked for
+  constexpr double plausible = 1e-10;
   if (last_error_ > towards * error_before && last_error_ < plausible) error_floor_ = last_error_;
 }
 
@@ -152,10 +156,10 @@ Vector RodProblem::refine(Vector x, const Vector& p, int rounds) {
   for (int k = 0; k < rounds; ++k) {
     settle(x, p);
     const double before = nodal_error_, error_before = last_error_;
-    double too_large = excess(x, p);
-    if (k > 1 && nodal_error_ > 0.3 * before) nodal_floor_ = nodal_error_;
+    error_estimate(x, p);
+    if (k > 1 && nodal_error_ > towards * before) nodal_floor_ = nodal_error_;
     if (refined) note_rounding(error_before);
-    if (k > 1 || refined) too_large = excess(x, p);
+    const double too_large = excess(x, p);
     refined = too_large > 1.0;
     if (too_large <= 1.0 && k > 0) return x;  // the first mesh is a guess and is always equidistributed
     const Loads at = loads(p);
@@ -183,8 +187,7 @@ std::optional<Vector> RodProblem::moved_to(std::vector<chain::ArcMesh> meshes, c
     const double too_large = excess(fresh, p);
     // What rounding is forgiven no coarser mesh may add.
     if (within && too_large <= 1.0 && nodal_error_ <= std::max(nodal_goal(), old_nodal)) return fresh;
-    // A thirtieth was asked for: a mesh that brings much less has met rounding, which changes by chance.
-    constexpr double by_mesh = 0.05, towards = 0.3;
+    constexpr double by_mesh = 0.05;
     const double old_error = std::get<0>(old_errors);
     const bool closer = old_error > scene_.model.tolerance && last_error_ < towards * old_error;
     if (!within && (closer || nodal_error_ < by_mesh * old_nodal)) return fresh;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "entry.hpp"
+#include "opened_entry.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/equilibrium/opening.hpp"
 #include "windlass/equilibrium/rod_problem.hpp"
@@ -14,17 +15,6 @@ namespace windlass::equilibrium {
 namespace {
 
 using Kind = ContactEvent::Kind;
-
-/// Can this state be the continuation? At the event itself forces vanish, to within rounding.
-bool admissible(const std::vector<ContactEvent>& events) {
-  return std::all_of(events.begin(), events.end(), [](const ContactEvent& event) {
-    return event.passes || event.value >= (event.kind == Kind::length ? 1e-6 : -1e-6);
-  });
-}
-
-bool holds(Entry& entry) {
-  return admissible(contact_events(entry.problem->profile(entry.x, entry.p), entry.problem->topology()));
-}
 
 /// What vanishes with an arc about s, in the topology without it: the curvature of the touch there, or the pressure of the
 /// line. Of several the one that comes last in the order of events.
@@ -137,14 +127,6 @@ std::optional<continuation::Transition::Located> located_onset(Entry line, int l
   return continuation::Transition::Located{touch.problem, touch.x, touch.p, begins->precision};
 }
 
-double length_of(Entry& entry, int link) {
-  return entry.problem->chain().length(entry.x, entry.problem->loads(entry.p), link);
-}
-
-double entered_beside_strand(const RodProblem& problem) {
-  return 2.0 * least_beside_strand * problem.rod().unit_length;
-}
-
 /// The event at which an arc beside a touch of strands has no length.
 std::optional<continuation::Transition::Located> located_vanishing(Entry here, int link) {
   here.problem = std::static_pointer_cast<RodProblem>(here.problem->clone());
@@ -164,104 +146,6 @@ double to_the_end(RodProblem& problem, const Vector& x, const Vector& p, int lin
   Vector longer = x, beside = p;
   const bool solved = tried([&] { return solve_at_length(problem, longer, beside, link, 2.0 * length); });
   return solved ? std::abs(beside(0) - p(0)) : -1.0;
-}
-
-/// Brings an opened arc to the length that it is entered with, as far as the contacts hold: longer ones lie further from
-/// the event, in shorter ones rounding moves the edges, by its size over the edges' force, length³.
-void adjust_length(Entry& entry, int link) {
-  // Where a line between strands begins, its two touches can hardly be told from one, as those of a gap between two.
-  const chain::Topology& topology = entry.problem->topology();
-  const bool line = topology.run(link).count > 0, strand = !line && topology.beside_strand(link);
-  const double factor = strand ? 4.0 : 1.5;
-  const chain::Chain& chain = entry.problem->chain();
-  const auto is_touch = [&](int joint) { return chain.joint(joint).kind() == contact::JointKind::touch; };
-  const double shortest = line || (is_touch(link) && is_touch(link + 1)) ? 2.0 * least_between_touches : 0.06;
-  const double entered =
-      strand ? entered_beside_strand(*entry.problem) : shortest * entry.problem->rod().unit_length;
-  const double now = length_of(entry, link);
-  const double change = now > factor * entered ? 1.0 / factor : now < entered ? factor : 1.0;
-  if (change == 1.0) return;
-  for (double length = change * now; change > 1.0 ? length < factor * entered : length > entered;
-       length *= change) {
-    Entry next = entry;
-    if (!tried([&] { return solve_at_length(*entry.problem, next.x, next.p, link, length) && holds(next); }))
-      return;
-    entry = next;
-  }
-}
-
-/// Brings an opened arc to the length that it has at p(0) = p, by the secant method: its length answers to the load steeply,
-/// the load to its length mildly. @returns whether it is there
-bool bring_to(Entry& entry, int link, double p) {
-  constexpr int most = 20, most_failures = 4;  // in a row: a sixteenth of the step fails, too
-  const double close = 1e-10 * std::max(1.0, std::abs(p));
-  double last = length_of(entry, link), length = 1.2 * last, last_p = entry.p(0);
-  int failures = 0;
-  for (int k = 0; k < most && std::abs(last_p - p) > close; ++k) {
-    Entry other = entry;
-    if (!tried([&] { return solve_at_length(*entry.problem, other.x, other.p, link, length); })) {
-      if (++failures > most_failures) return false;
-      length = 0.5 * (last + length);
-      continue;
-    }
-    failures = 0;
-    const double slope = (other.p(0) - last_p) / (length - last);
-    entry = other, last = length, last_p = other.p(0);
-    if (slope == 0.0) return false;
-    length = std::clamp(last + (p - last_p) / slope, 0.7 * last, 1.4 * last);
-  }
-  return std::abs(last_p - p) <= close;
-}
-
-/// Solves for a successor with opened arcs. Where the pressure is lost in several places almost at once, the state with
-/// one gap open has suction in another: that opens too, and so on.
-/// @param opened   links of `entry`, the one that keeps its length first
-/// @param as_long  as it is at p(0) = p; else brought to the length that arcs are entered with
-std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, int depth, bool as_long,
-                                  double p) {
-  if (!settle_shape(*entry.problem, entry.x, entry.p, opened)) return std::nullopt;
-  // What only redraws a state leaves all else where it is at the same load; at another, gaps that are open already move far.
-  Entry here = entry;
-  here.p(0) = p;
-  const bool in_place = as_long && tried([&] { return solve_in_place(*here.problem, here.x, here.p); });
-  if (in_place) entry = here;
-  double length = length_of(entry, opened.front());
-  if (entry.problem->topology().beside_strand(opened.front()))
-    length = std::max(length, entered_beside_strand(*entry.problem));
-  const auto solve = [&] {
-    return in_place ? solve_in_place(*entry.problem, entry.x, entry.p)
-                    : solve_at_length(*entry.problem, entry.x, entry.p, opened.front(), length);
-  };
-  if (!in_place && !solve()) return std::nullopt;
-  // What is admissible is judged on a mesh that is fine enough: events that only a finer one shows would be passed unseen.
-  if (const std::optional<Vector> finer = entry.problem->adapt(entry.x, entry.p)) {
-    entry.x = *finer;
-    if (!solve()) return std::nullopt;
-  }
-  if (as_long && !in_place && !bring_to(entry, opened.front(), p)) return std::nullopt;
-  const chain::Profile shape = entry.problem->profile(entry.x, entry.p);
-  const Topology& topology = entry.problem->topology();
-  const std::vector<ContactEvent> events = contact_events(shape, topology);
-  if (admissible(events)) {
-    if (!as_long) adjust_length(entry, opened.front());
-    return entry;
-  }
-  const auto worst = std::min_element(events.begin(), events.end(),
-                                      [](const auto& a, const auto& b) { return a.value < b.value; });
-  if (depth == 0) return std::nullopt;
-  const std::vector<double> s = entry.problem->joint_places(entry.x, entry.p, shape);
-  for (const Successor& next : successors(*worst, shape, topology, s)) {
-    std::vector<int> all;
-    for (const int link : opened) {
-      const auto now = std::find(next.source.begin(), next.source.end(), link);
-      if (now != next.source.end()) all.push_back(static_cast<int>(now - next.source.begin()));
-    }
-    all.insert(all.end(), next.opened.begin(), next.opened.end());
-    if (all.empty() || next.nothing_left || next.at_end) continue;
-    if (auto found = open_in_turn(draft(*entry.problem, next, shape, entry.p), all, depth - 1, as_long, p))
-      return found;
-  }
-  return std::nullopt;
 }
 
 /// The force of the touch between strands that is new in a topology.

@@ -2,6 +2,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "support/coil_scene.hpp"
 #include "windlass/chain/guess.hpp"
 #include "windlass/equilibrium/rod_problem.hpp"
 #include "windlass/equilibrium/start.hpp"
@@ -52,13 +53,7 @@ double crossing_force(const equilibrium::Started& found, const scene::Scene& sce
 BOOST_AUTO_TEST_SUITE(convergence)
 
 BOOST_AUTO_TEST_CASE(order_with_contact_of_the_rod_with_itself) {
-  scene::Scene scene;
-  scene.has_cylinder = true;
-  scene.load.tension = 2.0;
-  scene.load.angle = 2.0 * M_PI;
-  scene.rod.length = 40.0;
-  scene.rod_radius = 2.0 / 7.0;
-  scene.self_contact = true;
+  scene::Scene scene = test::thick_coil_scene();
   scene.model.tolerance = 1e-12;
   const equilibrium::Started found = equilibrium::cold_start(scene, true, true, {"load.tension"});
   const double exact = crossing_force(found, scene, 6, 48);

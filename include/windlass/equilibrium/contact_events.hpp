@@ -92,6 +92,10 @@ struct ContactEvent {
 /// All events of a state, in a fixed order for a given topology.
 std::vector<ContactEvent> contact_events(const chain::Profile& profile, const chain::Topology& topology);
 
+/// Links beside a touch of strands that have no length left, as in the state of an event.
+std::vector<int> vanished_beside_strands(const std::vector<ContactEvent>& events,
+                                         const chain::Topology& topology);
+
 /// A topology with the arclengths of its joints, to be filled from the old profile.
 struct Successor {
   chain::Topology topology;

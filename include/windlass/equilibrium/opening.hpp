@@ -67,6 +67,9 @@ struct Vanishing {
 std::optional<Vanishing> where_length_vanishes(RodProblem& problem, Vector x, Vector p, int link,
                                                double shortest);
 
+/// Length that a link beside a touch of strands is entered with, and given where it has none.
+double entered_beside_strand(const RodProblem& problem);
+
 /// An event's own state, in which a link beside a touch of strands has no length, is no start: gives it some, p(0) free.
 /// @returns false where Newton fails
 bool leave_event(RodProblem& problem, Vector& x, Vector& p);

@@ -1,6 +1,8 @@
 // What the event logic proposes on the shipped diagrams, every candidate in order, as recorded in proposals.txt: a change of
 // that logic shows here what it changes. With WINDLASS_RECORD set the file is written anew.
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -8,7 +10,6 @@
 
 #include "continuation/diagram.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
-#include "windlass/equilibrium/record.hpp"
 #include "windlass/equilibrium/start.hpp"
 #include "windlass/scene/keys.hpp"
 #include "windlass/scene/reader.hpp"
@@ -63,12 +64,14 @@ class Proposals : public continuation::DiagramObserver {
 std::string proposals(const std::string& file, bool diagram) {
   scene::Scene scene = scene::read_scene(std::filesystem::path(std::getenv("WINDLASS_SCENES")) / file);
   const scene::Continuation walk = *scene.continuation;
-  if (walk.from != 0.0) scene::set_parameter(scene, walk.parameter, walk.from);
+  constexpr double buckled = 1e-5;  // the straight strut's thrust is undetermined
+  scene::set_parameter(scene, walk.parameter, walk.from != 0.0 ? walk.from : buckled);
   continuation::Options options;
   options.target = walk.to;
   options.direction = walk.to < walk.from ? -1 : 1;
   options.lower = std::min(walk.from, walk.to);
   options.upper = std::max(walk.from, walk.to);
+  options.parameter_scale = std::clamp(std::abs(walk.to - walk.from) / 5.0, 0.2, 1e3);  // as the program
   options.newton_tolerance = 1e-9;
   const equilibrium::Started start =
       equilibrium::cold_start(scene, true, scene.half_turn(), {walk.parameter});
@@ -76,6 +79,7 @@ std::string proposals(const std::string& file, bool diagram) {
   continuation::DiagramOptions limits;
   limits.arms = diagram;
   continuation::trace_diagram(start.problem, start.x, start.p, options, limits, observer);
+  BOOST_TEST(!observer.text().empty(), file << " has no events");
   return observer.text();
 }
 

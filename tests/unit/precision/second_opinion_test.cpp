@@ -4,32 +4,17 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "support/coil_scene.hpp"
 #include "support/petsc_session.hpp"
 
 using namespace windlass;
-
-namespace {
-
-scene::Scene thick_scene() {
-  scene::Scene scene;
-  scene.name = "thick";
-  scene.has_cylinder = true;
-  scene.load.tension = 2.0;
-  scene.load.angle = 2.0 * M_PI;
-  scene.rod.length = 40.0;
-  scene.rod_radius = 2.0 / 7.0;
-  scene.self_contact = true;
-  return scene;
-}
-
-}  // namespace
 
 BOOST_FIXTURE_TEST_SUITE(second_opinions, test::PetscSession)
 
 BOOST_AUTO_TEST_CASE(chain_and_discrete_rod_agree_on_one_touch_and_on_two) {
   precision::StudyOptions options;
   options.quick = true;
-  const auto opinion = precision::second_opinion(thick_scene(), {{2.0, 8.0}, {}}, options);
+  const auto opinion = precision::second_opinion(test::thick_coil_scene(), {{2.0, 8.0}, {}}, options);
   BOOST_TEST(opinion.failures.empty());
   BOOST_REQUIRE(opinion.states.size() == 2u);
   for (const precision::Opinion& o : opinion.states) {
@@ -45,7 +30,7 @@ BOOST_AUTO_TEST_CASE(chain_and_discrete_rod_agree_on_one_touch_and_on_two) {
 BOOST_AUTO_TEST_CASE(a_state_that_cannot_be_is_named) {
   precision::StudyOptions options;
   options.quick = true;
-  scene::Scene scene = thick_scene();
+  scene::Scene scene = test::thick_coil_scene();
   scene.rod.length = 7.0;  // the discrete rod wants tails
   const auto opinion = precision::second_opinion(scene, {}, options);
   BOOST_TEST(opinion.states.empty());
@@ -54,14 +39,14 @@ BOOST_AUTO_TEST_CASE(a_state_that_cannot_be_is_named) {
 }
 
 BOOST_AUTO_TEST_CASE(it_is_for_thick_rods_with_free_ends) {
-  scene::Scene scene = thick_scene();
+  scene::Scene scene = test::thick_coil_scene();
   BOOST_TEST(precision::has_second_opinion(scene));
   BOOST_TEST(precision::default_states(scene).tensions.size() == 6u);
   scene.load.angle = 4.0 * M_PI;
   BOOST_TEST(precision::default_states(scene).tensions.size() == 5u);
   scene.ends.kind = scene::EndKind::clamped;
   BOOST_TEST(!precision::has_second_opinion(scene));
-  scene = thick_scene();
+  scene = test::thick_coil_scene();
   scene.self_contact = false;
   BOOST_TEST(!precision::has_second_opinion(scene));
 }
