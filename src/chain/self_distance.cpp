@@ -292,16 +292,18 @@ std::vector<Approach> approaches(const Profile& profile, const Topology& topolog
   constexpr double as_far_again = 2.0;  // nobody asks how far strands are that are this far
   const double cutoff = 2.0 * profile.radius * (1.0 + as_far_again);
   const int links = static_cast<int>(profile.pieces.size()), first = topology.half ? links : 0;
-  const auto least = [&](int i, int j) {  // of two pieces of the whole rod, i <= j
-    Search search(curve, separation, cutoff, known);
+  // Touches of a line are where they are laid, not where strands are nearest: right beside they may be nearer.
+  const std::vector<Eigen::Vector2d> none;
+  const auto least = [&](int i, int j, bool line) {  // of two pieces of the whole rod, i <= j
+    Search search(curve, separation, cutoff, line ? none : known);
     if (i == j)
       search.within(curve.begins[i], curve.begins[i + 1]);
     else
       search.between(curve.begins[i], curve.begins[i + 1], curve.begins[j], curve.begins[j + 1]);
     return search.best();
   };
-  const auto add = [&](int i, int j, bool mirrored) {
-    const auto found = mirrored ? least(links - 1 - j, first + i) : least(first + j, first + i);
+  const auto add = [&](int i, int j, bool mirrored, bool line) {
+    const auto found = mirrored ? least(links - 1 - j, first + i, line) : least(first + j, first + i, line);
     Approach near{i, j, mirrored, cutoff};
     if (found) {
       near.distance = found->distance;
@@ -310,14 +312,16 @@ std::vector<Approach> approaches(const Profile& profile, const Topology& topolog
     }
     out.push_back(near);
   };
-  std::vector<int> beside(links);
-  for (int i = 0; i < links; ++i) beside[i] = topology.beside(i);
+  std::vector<Topology::Facing> beside(links);
+  for (int i = 0; i < links; ++i)
+    if (topology.beside(i) >= 0) beside[i] = topology.facing(i);
   for (int i = 0; i < links; ++i)
     for (int j = 0; j <= i; ++j) {
       // Of two lines between strands a link is near the one beside it only.
-      const bool along = beside[i] >= 0 && beside[j] >= 0, faces = beside[i] == j;
-      if (!along || (faces && !topology.half)) add(i, j, false);
-      if (topology.half && (!along || faces)) add(i, j, true);
+      const bool along = beside[i].link >= 0 && beside[j].link >= 0, faces = beside[i].link == j;
+      const bool image = beside[i].image;
+      if (!along || (faces && !image)) add(i, j, false, faces);
+      if (topology.half && (!along || (faces && image))) add(i, j, true, faces);
     }
   return out;
 }

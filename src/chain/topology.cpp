@@ -187,25 +187,34 @@ int Topology::partner(int joint) const {
   return joint;
 }
 
-int Topology::beside(int link) const {
+Topology::Facing Topology::facing(int link) const {
   const int begin = partner(link), end = partner(link + 1);
-  if (begin < 0 || end < 0 || stretches[link] != Stretch::line) return -1;
+  if (begin < 0 || end < 0) return {};
   const auto mirrored = [&](int joint, int other) {
     return joint == other || seat(joint).strand != seat(other).strand;
   };
   // Strands side by side run the same way, images the other way.
   const bool image = mirrored(link, begin);
-  if (image != mirrored(link + 1, end) || end != begin + (image ? -1 : 1)) return -1;
-  const int other = image ? end : begin;
-  return stretches[other] == Stretch::line ? other : -1;
+  if (image != mirrored(link + 1, end) || end != begin + (image ? -1 : 1)) return {};
+  return {image ? end : begin, image};
+}
+
+int Topology::beside(int link) const {
+  const int other = facing(link).link;
+  if (other < 0) return -1;
+  const bool on_obstacles = stretches[link] == Stretch::line && stretches[other] == Stretch::line;
+  return on_obstacles || seat(link).part > 0.0 || seat(link + 1).part > 0.0 ? other : -1;
 }
 
 Topology::Run Topology::run(int link) const {
   const int count = static_cast<int>(stretches.size());
   if (link < 0 || link >= count || beside(link) < 0) return {};
+  const auto goes_on = [&](int joint) {
+    return seat(joint).part > 0.0 || (stretches[joint - 1] == Stretch::line && stretches[joint] == Stretch::line);
+  };
   int first = link, last = link;
-  while (first > 0 && beside(first - 1) >= 0) --first;
-  while (last + 1 < count && beside(last + 1) >= 0) ++last;
+  while (first > 0 && goes_on(first) && beside(first - 1) >= 0) --first;
+  while (last + 1 < count && goes_on(last + 1) && beside(last + 1) >= 0) ++last;
   return {first, last - first + 1};
 }
 

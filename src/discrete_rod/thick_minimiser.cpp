@@ -34,6 +34,24 @@ VectorXd helix(const ThickRod& rod, const SplineRod& spline) {
   return spline.through(points);
 }
 
+/// Points at the knots, on the curve that the rod starts on.
+VectorXd along(const std::vector<SplineRod::Point>& curve, const SplineRod& spline) {
+  std::vector<SplineRod::Point> points;
+  std::size_t corner = 1;
+  double begin = 0.0;
+  for (int k = 0; k <= spline.elements(); ++k) {
+    double length = (curve[corner] - curve[corner - 1]).norm();
+    while (spline.knot(k) > begin + length && corner + 1 < curve.size()) {
+      begin += length;
+      ++corner;
+      length = (curve[corner] - curve[corner - 1]).norm();
+    }
+    points.push_back(curve[corner - 1] +
+                     (spline.knot(k) - begin) / length * (curve[corner] - curve[corner - 1]));
+  }
+  return spline.through(points);
+}
+
 VectorXd resampled(const SplineRod& from, const VectorXd& x, const SplineRod& to) {
   std::vector<SplineRod::Point> points;
   int e = 0;
@@ -89,7 +107,9 @@ void ThickRod::validate() const {
     throw std::invalid_argument("thick rod: half_length must exceed half the capstan angle by 1.5");
 }
 
-SplineRod ThickRod::spline(double h) const { return {half_length, 0.5 * angle + fine_beyond, h}; }
+SplineRod ThickRod::spline(double h) const {
+  return {half_length, fine_length > 0.0 ? fine_length : 0.5 * angle + fine_beyond, h};
+}
 
 ThickMinimum minimise(const ThickRod& rod, double h, const ThickMinimum* start) {
   rod.validate();
@@ -99,8 +119,11 @@ ThickMinimum minimise(const ThickRod& rod, double h, const ThickMinimum* start) 
   ThickMinimum minimum;
   minimum.h = h;
   minimum.unknowns = static_cast<int>(spline.size());
-  minimum.x = start ? resampled(rod.spline(start->h), start->x, spline) : helix(rod, spline);
+  minimum.x = start                ? resampled(rod.spline(start->h), start->x, spline)
+              : rod.curve.empty() ? helix(rod, spline)
+                                  : along(rod.curve, spline);
   if (!stiffen(energy, rod, h, !start, minimum) || !settle(energy, rod.radius, minimum)) return minimum;
+  minimum.penalties = energy.penalties;
   minimum.R_tot = energy.cylinder_force(minimum.x);
   minimum.self_force = energy.strand_force(minimum.x);
   minimum.energy = energy.bending(minimum.x);

@@ -271,7 +271,7 @@ std::vector<ContactEvent> approach_events(const Profile& profile, const Topology
     event.mirrored = near.mirrored;
     event.s_other = near.s_other;
     event.named = name[near.link], event.named_other = name[near.other];
-    if (beside[near.link] == near.other && near.mirrored == topology.half) {
+    if (beside[near.link] == near.other && near.mirrored == topology.facing(near.link).image) {
       event.value = 1.0 + std::min(event.value, 0.0) / carried_between_strands;
       event.redrawn = true;
     }

@@ -47,9 +47,10 @@ Entry draft(const RodProblem& from, const Successor& next, const chain::Profile&
   const std::vector<chain::Stretch>&before = from.topology().stretches, &now = next.topology.stretches;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const double length = next.s[i + 1] - next.s[i];
-    if (now[i] == chain::Stretch::line && length > 0.0 && std::isfinite(length))
+    const bool along_strand = next.topology.beside(static_cast<int>(i)) >= 0;
+    if ((now[i] == chain::Stretch::line || along_strand) && length > 0.0 && std::isfinite(length))
       meshes[i].nodes = inherited(shape, next.s[i], next.s[i + 1]);
-    if (next.topology.beside(static_cast<int>(i)) >= 0) continue;  // many, and each as short as need be
+    if (along_strand) continue;  // many, and each as short as need be
     if (meshes[i].nodes.size() > elements && before[next.source[i]] == now[i]) continue;
     // Was a closed form, or a smooth line of several turns.
     const double most = std::min(std::abs(length), 40.0);

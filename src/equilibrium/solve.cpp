@@ -161,6 +161,11 @@ Solution solve_flat(const scene::Scene& scene, Started& planar) {
 /// @param kirchhoff  the rung is asked for: the flat state, too, is given on it
 Equilibria solve_capstan(const scene::Scene& scene, const std::vector<std::string>& keys, bool kirchhoff) {
   const bool half = scene.half_turn();
+  if (scene.knot.tied()) {
+    Started knot = cold_start(scene, true, half, keys);
+    const int index = knot.problem->total_index(knot.x, knot.p);
+    return only(finish(knot, "a knot: Kirchhoff rod with its thickness"), scene, index);
+  }
   Flat flat = flat_state(scene, keys);
   const Vector print = flat.rod ? flat.rod->problem->fingerprint(flat.rod->x, flat.rod->p) : Vector();
   const auto finished = [&](FoundState& best) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "attempt.hpp"
+#include "windlass/knot/start_curve.hpp"
 #include "windlass/rod/capstan.hpp"
 #include "windlass/scene/error.hpp"
 #include "windlass/scene/units.hpp"
@@ -65,6 +66,21 @@ std::optional<Started> thick_coil(const scene::Scene& scene, bool half, const st
   return from ? reach(*from, scene, scene.load.tension, half, keys, failure) : std::nullopt;
 }
 
+/// A knot, relaxed at a tension at which its contacts are few, then tightened or loosened.
+std::optional<Started> knot_start(const scene::Scene& scene, bool half, const std::vector<std::string>& keys,
+                                  std::string& failure) {
+  constexpr double loose = 0.3, tight = 2.0;
+  scene::Scene at = scene;
+  at.load.tension = std::clamp(scene.load.tension, loose, tight);
+  const bool here = at.load.tension == scene.load.tension;
+  const std::vector<std::string> path{"load.tension"};
+  std::optional<Started> from =
+      relaxed_start(at, knot::clove_hitch(scene.rod_radius), here ? keys : path, failure);
+  if (!from) return std::nullopt;
+  if (here) return half ? from : unfold(*from->problem, from->x, from->p, from->newton_iterations);
+  return reach(*from, scene, scene.load.tension, half, keys, failure);
+}
+
 }  // namespace
 
 std::optional<Started> followed_coil(const scene::Scene& scene, bool spatial, bool half,
@@ -87,6 +103,10 @@ Started cold_start(const scene::Scene& asked, bool spatial, bool half, const std
   if (!scene.has_cylinder)
     return scene.ends.shortening ? buckled_strut(scene, half, keys) : straight_strut(scene, half, keys);
   std::string failure;
+  if (scene.knot.tied()) {
+    if (auto knot = knot_start(scene, half, keys, failure)) return *knot;
+    throw NoEquilibrium("no equilibrium of the knot was found: " + failure);
+  }
   if (auto followed = followed_coil(scene, spatial, half, keys, failure)) return *followed;
   if (auto discovered = discovered_start(scene, spatial, half, keys)) return *discovered;
   throw NoEquilibrium("no equilibrium in contact was found at T = " + std::to_string(asked.load.tension) +

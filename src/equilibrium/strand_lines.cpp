@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "strand_successors.hpp"
+#include "windlass/chain/self_distance.hpp"
 
 /// The touches that a line between strands consists of (PHYSICS, "Lines between turns"): how many, and where.
 namespace windlass::equilibrium {
@@ -78,13 +79,14 @@ Successor laid_anew(const Topology& topology, Strip strip, int link, const Monit
   const auto lay = [&](const Topology::Run& run, bool image) {  // an image runs the other way
     const double begin = strip.s[run.first], length = strip.s[run.first + run.count] - begin;
     const int obstacle = strip.on[run.first].obstacle;
-    strip.merge(run.first, run.first + run.count - 1, Stretch::line);
+    const Stretch kind = strip.parts[run.first].kind;
+    strip.merge(run.first, run.first + run.count - 1, kind);
     for (int k = links - 1; k > 0; --k) {
       const int number = own_image ? std::min(k, links - k) : image ? links - k : k;
       const bool second = own_image ? 2 * k > links : image;
       const double part = image ? 1.0 - parts[links - 1 - k] : parts[k - 1];
       const int strand = fresh + number;
-      strip.split(run.first, begin + length * part, Stretch::line, Stretch::line,
+      strip.split(run.first, begin + length * part, kind, kind,
                   chain::Seat{obstacle, second ? -strand : strand, part});
     }
   };
@@ -96,10 +98,67 @@ Successor laid_anew(const Topology& topology, Strip strip, int link, const Monit
 
 }  // namespace
 
+namespace {
+
+/// Places of the touches inside lines as parts of these, where their ends have changed.
+void measure_parts(Strip& strip) {
+  const auto inside = [&](int joint) { return strip.on[joint].part > 0.0; };
+  const int last = static_cast<int>(strip.s.size()) - 1;
+  for (int j = 1; j < last; ++j) {
+    if (!inside(j)) continue;
+    int begin = j, end = j;
+    while (begin > 0 && inside(begin)) --begin;
+    while (end < last && inside(end)) ++end;
+    strip.on[j].part = (strip.s[j] - strip.s[begin]) / (strip.s[end] - strip.s[begin]);
+  }
+}
+
+}  // namespace
+
+bool lies_on_obstacles(const Topology& topology, int link) {
+  return topology.stretches[link] == Stretch::line && topology.stretches[topology.facing(link).link] == Stretch::line;
+}
+
+std::optional<Successor> line_opens(int joint, Strip strip) {
+  if (strip.on[joint].part == 0.0) return std::nullopt;
+  const int other = partner(strip, joint);
+  for (const int j : {std::max(joint, other), std::min(joint, other)}) {
+    strip.merge(j - 1, j, joined(strip.parts[j - 1].kind, strip.parts[j].kind));
+    if (joint == other) break;
+  }
+  measure_parts(strip);
+  return strip.successor();
+}
+
+std::optional<Successor> line_filled(const ContactEvent& event, const chain::Profile& profile,
+                                     const Topology& topology, Strip strip) {
+  const Topology::Facing facing = topology.facing(event.place);
+  if (facing.link != event.other || facing.image != event.mirrored) return std::nullopt;
+  const Topology::Run run = topology.run(event.place);
+  int strand = new_strand(strip);
+  for (const chain::Approach& near : chain::approaches(profile, topology)) {
+    const bool here = near.link == event.place || (near.link >= run.first && near.link < run.first + run.count) || (near.other >= run.first && near.other < run.first + run.count);
+    const Topology::Facing faced = topology.facing(near.link);
+    if (!here || faced.link != near.other || faced.image != near.mirrored) continue;
+    if (near.distance - 2.0 * profile.radius > -carried_between_strands) continue;
+    const bool own_image = near.mirrored && near.link == near.other && std::abs(near.s - near.s_other) < 1e-6;
+    const auto cut = [&](double at, int mark) {
+      const int i = strip.part_at(at);
+      const Stretch kind = strip.parts[i].kind;
+      strip.split(i, at, kind, kind, chain::Seat{strip.on[i].obstacle, mark, 0.5});
+    };
+    cut(near.s, strand);
+    if (!own_image) cut(near.s_other, near.mirrored ? -strand : strand);
+    ++strand;
+  }
+  measure_parts(strip);
+  return strip.successor();
+}
+
 std::optional<Successor> line_with_fewer_touches(const chain::Profile& profile, const Topology& topology,
                                                  int link, const Strip& strip) {
   const int links = topology.run(link).count;
-  if (links < 2) return std::nullopt;
+  if (links < 2 || !lies_on_obstacles(topology, link)) return std::nullopt;
   const Monitor monitor = monitor_of(profile, topology.run(link), strip);
   return laid_anew(topology, strip, link, monitor,
                    std::clamp(static_cast<int>(std::ceil(monitor.links)), 1, links - 1));
@@ -108,7 +167,7 @@ std::optional<Successor> line_with_fewer_touches(const chain::Profile& profile, 
 std::optional<Successor> line_with_more_touches(const chain::Profile& profile, const Topology& topology,
                                                 int link, const Strip& strip) {
   const int links = topology.run(link).count;
-  if (links == 0) return std::nullopt;
+  if (links == 0 || !lies_on_obstacles(topology, link)) return std::nullopt;
   constexpr int few = 4;  // tell little of the pressure
   const Monitor monitor = monitor_of(profile, topology.run(link), strip);
   const int enough = links < few ? 2 * links : static_cast<int>(std::ceil(monitor.links));

@@ -28,14 +28,6 @@ std::optional<Successor> strand_passes_edge(int link, Strip strip) {
   return strip.successor();
 }
 
-/// The other joint of a touch between strands; j itself where it touches its own image.
-int partner(const Strip& strip, int j) {
-  const int strand = std::abs(strip.on[j].strand);
-  for (int k = 0; k < static_cast<int>(strip.on.size()); ++k)
-    if (k != j && std::abs(strip.on[k].strand) == strand) return k;
-  return j;
-}
-
 /// Two touches with different strands pass each other along the rod; on a half chain one may pass its own image at s = 0,
 /// and is then pressed on by the image of what pressed on it.
 std::optional<Successor> touches_pass(int link, Strip strip) {
@@ -68,6 +60,13 @@ std::optional<Successor> touches_meet(int link, Strip strip) {
 }
 
 }  // namespace
+
+int partner(const Strip& strip, int j) {
+  const int strand = std::abs(strip.on[j].strand);
+  for (int k = 0; k < static_cast<int>(strip.on.size()); ++k)
+    if (k != j && std::abs(strip.on[k].strand) == strand) return k;
+  return j;
+}
 
 int new_strand(const Strip& strip) {
   int most = 0;

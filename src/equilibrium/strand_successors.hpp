@@ -8,8 +8,19 @@
 /// What follows an event at a touch of the rod with itself.
 namespace windlass::equilibrium {
 
+/// The other joint of a touch between strands; j itself where it touches its own image.
+int partner(const Strip& strip, int j);
+
 /// A mark that no touch has yet, see chain::Seat.
 int new_strand(const Strip& strip);
+
+/// A touch inside a line between strands pulls: it is taken out. nullopt: it is in none.
+std::optional<Successor> line_opens(int joint, Strip strip);
+
+/// Two strands that meet between two touches of theirs that are next to each other on either, at all places where they do: these
+/// are touches of a line. nullopt: elsewhere.
+std::optional<Successor> line_filled(const ContactEvent& event, const chain::Profile& profile,
+                                     const chain::Topology& topology, Strip strip);
 
 /// A line between strands that `link` belongs to, with fewer or more touches; nothing where there is none, or no touch inside.
 std::optional<Successor> line_with_fewer_touches(const chain::Profile& profile,

@@ -200,6 +200,7 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
     case Kind::force:
       for (const int link : {event.place - 1, event.place})
         if (vanishes(strip, link)) return after_length(link, strip);
+      if (const auto opened = line_opens(event.place, strip)) return {*opened};
       if (strip.on[event.place].strand != 0) return strands_part(event.place, strip);
       return after_force(event, strip, profile, topology);
     case Kind::curvature:
@@ -212,7 +213,8 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
     case Kind::reaction:
       return strand_lifts(event.place, strip);
     case Kind::approach:
-      if (event.redrawn) return {*line_with_more_touches(profile, topology, event.place, strip)};
+      if (const auto more = line_with_more_touches(profile, topology, event.place, strip)) return {*more};
+      if (const auto line = line_filled(event, profile, topology, strip)) return {*line};
       return strands_meet(event, strip);
   }
   return {};

@@ -71,6 +71,7 @@ Key end_of_rod(std::string_view name, std::string_view help) {
           .set_text = set_end<Member>};
 }
 
+constexpr std::string_view knot_words[] = {"none", "clove_hitch"};
 constexpr std::string_view model_words[] = {"auto", "closed_form", "planar", "kirchhoff"};
 constexpr std::string_view symmetry_words[] = {"auto", "half_turn", "none"};
 
@@ -204,6 +205,18 @@ std::vector<Key> load_keys() {
   };
 }
 
+std::vector<Key> knot_keys() {
+  Key curve{.name = "knot.curve",
+            .kind = ValueKind::text,
+            .range = any,
+            .choices = {},
+            .help = "another knot: CSV file with the points x, y, z of the curve that it starts on",
+            .get_text = [](const Scene& scene) { return scene.knot.curve; },
+            .set_text = [](Scene& scene, const std::string& text) { scene.knot.curve = text; }};
+  return {word<&Scene::knot, &Knot::kind, knot_words>("knot.kind", "how the rod is tied round the cylinder"),
+          curve};
+}
+
 std::vector<Key> method_keys() {
   Key tolerance{.name = "model.tolerance",
                 .range = {.low = 1e-14, .high = 0.1},
@@ -249,7 +262,7 @@ std::vector<Key> method_keys() {
 std::span<const Key> keys() {
   static const std::vector<Key> table = [] {
     std::vector<Key> all;
-    for (auto&& part : {top_level_keys(), rod_keys(), load_keys(), method_keys()})
+    for (auto&& part : {top_level_keys(), rod_keys(), load_keys(), knot_keys(), method_keys()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();

@@ -27,8 +27,6 @@ constexpr Planned planned[] = {
     {"cylinder.friction_couple", "true", "sliding"},
     {"ends.travel", "\"free\"", "sliding"},
     {"plate", "", "a plate"},
-    {"knot.kind", "\"none\"", "knots"},
-    {"knot.curve", "", "knots"},
 };
 
 bool belongs_to(std::string_view key, std::string_view name) {

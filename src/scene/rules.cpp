@@ -92,6 +92,30 @@ void check_self_contact(const Document& document, const Scene& scene) {
            "must be false with this model.kind: a rod that touches itself leaves the plane");
 }
 
+void check_knot(const Document& document, const Scene& scene) {
+  if (!scene.knot.tied()) return;
+  const std::string key = scene.knot.curve.empty() ? "knot.kind" : "knot.curve";
+  if (!scene.knot.curve.empty() && scene.knot.kind != KnotKind::none)
+    forbid(document, "knot.curve", "must not be given beside knot.kind");
+  if (!scene.has_cylinder) forbid(document, key, "needs a [cylinder]");
+  if (!scene.self_contact)
+    forbid(document, key, "needs a rod that keeps off itself: rod.radius > 0 and rod.self_contact = true");
+  constexpr double winding = 4.0 * M_PI, rounding = 1e-9;
+  if (scene.knot.kind == KnotKind::clove_hitch && std::abs(scene.load.angle - winding) > rounding)
+    forbid(document, document.find("load.angle") ? "load.angle" : key,
+           "must be \"4 pi\" with knot.kind = \"clove_hitch\": its ends are pulled along +-e_x");
+  for (const char* end : {"ends.kind", "ends.left", "ends.right"})
+    if (scene.ends.left_kind() != EndKind::moment_free || scene.ends.right_kind() != EndKind::moment_free)
+      forbid(document, end, "must be \"moment_free\" for a knot");
+  const Rod& rod = scene.rod;
+  if (rod.natural_curvature != 0.0 || rod.natural_twist != 0.0 ||
+      rod.bending_stiffness_2 != rod.bending_stiffness)
+    forbid(document, key, "needs an isotropic, naturally straight rod: its start is relaxed without torsion");
+  if (scene.continuation && scene.continuation->parameter == "load.angle" &&
+      scene.knot.kind == KnotKind::clove_hitch)
+    forbid(document, "continuation.parameter", "must not be load.angle with knot.kind = \"clove_hitch\"");
+}
+
 void check_continuation(const Document& document, const Scene& scene, bool restart) {
   const Continuation& c = *scene.continuation;
   const bool of_capstan = c.parameter == "load.tension" || c.parameter == "load.angle";
@@ -133,6 +157,7 @@ void check_rules(const Document& document, const Scene& scene, bool restart) {
     check_strut(document, scene);
   check_ends(document, scene);
   check_self_contact(document, scene);
+  check_knot(document, scene);
   if (scene.continuation) check_continuation(document, scene, restart);
   for (const char c : {'/', '\0'})
     if (scene.name.find(c) != std::string::npos || scene.name.empty() || scene.name.front() == '.')

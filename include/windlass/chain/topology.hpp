@@ -46,8 +46,14 @@ struct Topology {
   bool beside_strand(int link) const { return seat(link).strand != 0 || seat(link + 1).strand != 0; }
   /// The other joint of a touch between strands; the joint itself where it touches its own image; −1: it touches no strand.
   int partner(int joint) const;
-  /// The link that this one touches all along: both lie on an obstacle between touches that are next to each other on either
-  /// strand. It may be its own image. −1: none.
+  /// The link between the same two touches as this one, which are next to each other on either strand. It may be its own image.
+  struct Facing {
+    int link = -1;       ///< −1: none
+    bool image = false;  ///< of the half-turn: it runs the other way
+  };
+  Facing facing(int link) const;
+  /// The link that this one touches all along: it faces it, and both lie on an obstacle, or belong to a row of touches that stands
+  /// for a line (Seat::part). −1: none.
   int beside(int link) const;
   /// The links of the line between strands that a link belongs to, none where it is beside none.
   struct Run {

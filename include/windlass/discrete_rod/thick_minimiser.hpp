@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "windlass/discrete_rod/spline_rod.hpp"
+#include "windlass/discrete_rod/thick_energy.hpp"
 
 /// A second opinion on rods with a thickness, which shares no code with chain and contact.
 namespace windlass::discrete_rod {
@@ -13,6 +13,9 @@ struct ThickRod {
   double tension = 1.0, angle = 0.0;
   double half_length = 0.0;
   double radius = 0.0;  ///< r [ρ]
+  /// Corners of the curve it starts on, the half s >= 0 from the mid-point on, straight on beyond the last; empty: a helix.
+  std::vector<SplineRod::Point> curve = {};
+  double fine_length = 0.0;  ///< of fine elements, from the mid-point on [ρ]; 0: as the angle asks for
 
   /// @throws std::invalid_argument naming the bound violated
   void validate() const;
@@ -28,6 +31,7 @@ struct ThickMinimum {
   double R_tot = 0.0, self_force = 0.0;  ///< of the whole rod [EI/ρ²]
   double energy = 0.0;                   ///< of bending, whole rod [EI/ρ]
   SplineRod::Vector x;
+  ThickPenalties penalties;
 };
 
 /// Minimises `ThickEnergy` over the curves that are their own half-turn image, by TAO: Newton in a trust

@@ -37,6 +37,13 @@ std::optional<Started> discovered_start(const scene::Scene& scene, bool spatial,
 std::optional<Started> thicken(const Started& flat, const scene::Scene& scene, bool half,
                                const std::vector<std::string>& keys, std::string& failure);
 
+/// A thick rod relaxed as a discrete rod with smooth contact (discrete_rod/thick_minimiser.hpp), polished on exact arcs with the
+/// contacts read off it.
+/// @param curve    corners of the half s >= 0 that it starts on; empty: a helix
+/// @param failure  why there is none
+std::optional<Started> relaxed_start(const scene::Scene& scene, const std::vector<Eigen::Vector3d>& curve,
+                                     const std::vector<std::string>& keys, std::string& failure);
+
 /// The planar state as a state of the Kirchhoff rod (half or full chain): equal up to discretisation.
 Started lift(RodProblem& planar, const Vector& x, const Vector& p, bool half);
 

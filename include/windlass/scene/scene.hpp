@@ -60,6 +60,17 @@ struct Ends {
   bool operator==(const Ends&) const = default;
 };
 
+enum class KnotKind { none, clove_hitch };
+
+/// A rod that is knotted round the cylinder, or round itself.
+struct Knot {
+  KnotKind kind = KnotKind::none;
+  std::string curve;  ///< instead: file with the points of a start curve; empty: none
+  bool tied() const { return kind != KnotKind::none || !curve.empty(); }
+
+  bool operator==(const Knot&) const = default;
+};
+
 struct Model {
   ModelKind kind = ModelKind::automatic;
   Symmetry symmetry = Symmetry::automatic;
@@ -107,6 +118,7 @@ struct Scene {
   std::vector<Wall> walls;         ///< struts only, in the order of the file
   Load load;
   Ends ends;
+  Knot knot;
   Model model;
   std::optional<Continuation> continuation;
   std::optional<Units> units;  ///< physical scenes only
