@@ -312,16 +312,15 @@ std::vector<Approach> approaches(const Profile& profile, const Topology& topolog
     }
     out.push_back(near);
   };
-  std::vector<Topology::Facing> beside(links);
-  for (int i = 0; i < links; ++i)
-    if (topology.beside(i) >= 0) beside[i] = topology.facing(i);
+  std::vector<bool> in_line(links);
+  for (int i = 0; i < links; ++i) in_line[i] = topology.along(i);
   for (int i = 0; i < links; ++i)
     for (int j = 0; j <= i; ++j) {
-      // Of two lines between strands a link is near the one beside it only.
-      const bool along = beside[i].link >= 0 && beside[j].link >= 0, faces = beside[i].link == j;
-      const bool image = beside[i].image;
-      if (!along || (faces && !image)) add(i, j, false, faces);
-      if (topology.half && (!along || (faces && image))) add(i, j, true, faces);
+      // Of two lines between strands a link is near what faces it only.
+      const bool along = in_line[i] && in_line[j];
+      const auto looked_at = [&](bool image) { return !along || topology.faces(i, j, image); };
+      if (looked_at(false)) add(i, j, false, along);
+      if (topology.half && looked_at(true)) add(i, j, true, along);
     }
   return out;
 }

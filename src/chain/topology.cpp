@@ -187,35 +187,79 @@ int Topology::partner(int joint) const {
   return joint;
 }
 
-Topology::Facing Topology::facing(int link) const {
-  const int begin = partner(link), end = partner(link + 1);
-  if (begin < 0 || end < 0) return {};
+std::optional<Topology::Interval> Topology::between_touches(int link) const {
+  const int last = static_cast<int>(stretches.size());
+  Interval out{link, link + 1};
+  while (out.begin > 0 && seat(out.begin).strand == 0) --out.begin;
+  while (out.end < last && seat(out.end).strand == 0) ++out.end;
+  if (seat(out.begin).strand == 0 || seat(out.end).strand == 0) return std::nullopt;
+  return out;
+}
+
+std::optional<Topology::Facing> Topology::facing(const Interval& interval) const {
+  const int begin = partner(interval.begin), end = partner(interval.end);
   const auto mirrored = [&](int joint, int other) {
     return joint == other || seat(joint).strand != seat(other).strand;
   };
   // Strands side by side run the same way, images the other way.
-  const bool image = mirrored(link, begin);
-  if (image != mirrored(link + 1, end) || end != begin + (image ? -1 : 1)) return {};
-  return {image ? end : begin, image};
+  const bool image = mirrored(interval.begin, begin);
+  if (image != mirrored(interval.end, end) || (image ? end >= begin : begin >= end)) return std::nullopt;
+  const auto there = between_touches(image ? end : begin);
+  const Interval other = image ? Interval{end, begin} : Interval{begin, end};
+  return there == other ? std::optional(Facing{other, image}) : std::nullopt;
 }
 
-int Topology::beside(int link) const {
-  const int other = facing(link).link;
-  if (other < 0) return -1;
-  const bool on_obstacles = stretches[link] == Stretch::line && stretches[other] == Stretch::line;
-  return on_obstacles || seat(link).part > 0.0 || seat(link + 1).part > 0.0 ? other : -1;
+std::optional<Topology::Facing> Topology::facing(int link) const {
+  const auto interval = between_touches(link);
+  return interval ? facing(*interval) : std::nullopt;
+}
+
+bool Topology::faces(int link, int other, bool image) const {
+  const auto faced = facing(link);
+  return faced && faced->image == image && between_touches(other) == faced->interval;
+}
+
+bool Topology::lies_on_obstacle(const Interval& interval) const {
+  return interval.end == interval.begin + 1 && stretches[interval.begin] == Stretch::line;
+}
+
+bool Topology::in_line(const Interval& interval) const {
+  const auto faced = facing(interval);
+  if (!faced) return false;
+  const int line = seat(interval.begin).line;
+  return (lies_on_obstacle(interval) && lies_on_obstacle(faced->interval)) ||
+         (line != 0 && seat(interval.end).line == line);
+}
+
+bool Topology::along_on_obstacle(int link) const {
+  const auto interval = between_touches(link);
+  const auto faced = interval ? facing(*interval) : std::nullopt;
+  return faced && lies_on_obstacle(*interval) && lies_on_obstacle(faced->interval);
 }
 
 Topology::Run Topology::run(int link) const {
   const int count = static_cast<int>(stretches.size());
-  if (link < 0 || link >= count || beside(link) < 0) return {};
-  const auto goes_on = [&](int joint) {
-    return seat(joint).part > 0.0 || (stretches[joint - 1] == Stretch::line && stretches[joint] == Stretch::line);
+  if (link < 0 || link >= count) return {};
+  auto interval = between_touches(link);
+  if (!interval || !in_line(*interval)) return {};
+  const auto goes_on = [&](int joint, const std::optional<Interval>& next) {
+    if (!next || !in_line(*next)) return false;
+    return seat(joint).line != 0 ||
+           (stretches[joint - 1] == Stretch::line && stretches[joint] == Stretch::line);
   };
-  int first = link, last = link;
-  while (first > 0 && goes_on(first) && beside(first - 1) >= 0) --first;
-  while (last + 1 < count && goes_on(last + 1) && beside(last + 1) >= 0) ++last;
-  return {first, last - first + 1};
+  int first = interval->begin, last = interval->end;
+  for (auto next = first > 0 ? between_touches(first - 1) : std::nullopt; first > 0 && goes_on(first, next);
+       next = first > 0 ? between_touches(first - 1) : std::nullopt)
+    first = next->begin;
+  for (auto next = last < count ? between_touches(last) : std::nullopt; last < count && goes_on(last, next);
+       next = last < count ? between_touches(last) : std::nullopt)
+    last = next->end;
+  return {first, last - first};
+}
+
+Topology::Run Topology::run_facing(int link) const {
+  const auto faced = facing(link);
+  return faced ? run(faced->interval.begin) : Run{};
 }
 
 std::vector<Coupling> Topology::couplings() const {
@@ -244,14 +288,16 @@ std::string Topology::text() const {
   };
   std::string text;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const bool inside =
-        i > 0 && whole.beside(static_cast<int>(i)) >= 0 && whole.beside(static_cast<int>(i) - 1) >= 0;
-    if (inside) continue;
+    // Of a line its ends are named, and where one of its strands meets an edge.
+    const int link = static_cast<int>(i);
+    if (i > 0 && whole.along(link) && whole.along(link - 1) && whole.seat(link).strand != 0 &&
+        whole.run(link).first == whole.run(link - 1).first)
+      continue;
     const bool touch = i > 0 && (all[i] == Stretch::line) == (all[i - 1] == Stretch::line);
     const bool strand = i > 0 && whole.seat(static_cast<int>(i)).strand != 0;
     if (i > 0) text += !touch ? " " : strand ? " cross " : " " + named("touch", i) + " ";
-    if (whole.beside(static_cast<int>(i)) >= 0)
-      text += "lines";
+    if (whole.along(link))
+      text += all[i] == Stretch::line && !whole.along_on_obstacle(link) ? "lines on" : "lines";
     else
       text += all[i] == Stretch::line ? named(word(all[i]), i) : word(all[i]);
   }

@@ -186,15 +186,30 @@ double least_under(const Profile& profile, int line) {
   return least;
 }
 
+/// Half the distance between the touches on both sides of one inside a line between strands.
+double span_of(const Profile& profile, const Topology& topology, int joint) {
+  const double begin = profile.pieces[topology.between_touches(joint - 1)->begin].s(0),
+               end = profile.pieces[topology.between_touches(joint)->end].s(0);
+  return 0.5 * (end - begin);
+}
+
 /// How much nearer strands are between the touches inside a line of theirs, by the pressure p that those stand for: ph⁴/192B.
-double nearer_between(const Profile& profile, const Topology::Run& run) {
+double nearer_between(const Profile& profile, const Topology& topology, const Topology::Run& run) {
   double most = 0.0;
   for (const Contact& c : profile.contacts) {
-    if (c.joint <= run.first || c.joint >= run.first + run.count) continue;
-    const double h = 0.5 * (length_of(profile.pieces[c.joint - 1]) + length_of(profile.pieces[c.joint]));
+    if (c.coupling < 0 || c.joint <= run.first || c.joint >= run.first + run.count) continue;
+    const double h = span_of(profile, topology, c.joint);
     most = std::max(most, std::abs(c.force) * h * h * h / (192.0 * profile.material.bending_stiffness));
   }
   return most;
+}
+
+/// Has a line between strands touches inside?
+bool has_inner_touches(const Topology& topology, int link) {
+  const Topology::Run run = topology.run(link);
+  for (int j = run.first + 1; j < run.first + run.count; ++j)
+    if (topology.seat(j).strand != 0) return true;
+  return false;
 }
 
 /// A line between strands needs its touches, or has more than it needs.
@@ -203,12 +218,16 @@ ContactEvent spare_touches(const Profile& profile, const Topology& topology, int
   ContactEvent event{Kind::length, i, 1.0, profile.pieces[i].s(0)};
   event.redrawn = true;
   if (i == run.first)
-    event.value = nearer_between(profile, run) / (spare_between_strands * carried_between_strands) - 1.0;
+    event.value =
+        nearer_between(profile, topology, run) / (spare_between_strands * carried_between_strands) - 1.0;
   return event;
 }
 
 ContactEvent length_event(const Profile& profile, const Topology& topology, int i) {
-  if (topology.run(i).count > 1) return spare_touches(profile, topology, i);
+  // Touches inside a line between strands are where they are laid; an edge may be between two.
+  const bool between_strands = topology.seat(i).strand != 0 && topology.seat(i + 1).strand != 0;
+  if (topology.along(i) && between_strands && has_inner_touches(topology, i))
+    return spare_touches(profile, topology, i);
   const bool begins_at_mid = topology.half && i == 0 && !topology.mid_touch;
   const Piece& piece = profile.pieces[i];
   const bool gap = piece.stretch == Stretch::gap;
@@ -244,7 +263,7 @@ ContactEvent reaction_event(const Profile& profile, const Contact& c) {
 /// no more than they may be nearer elsewhere: a force F lifts both over the span h of its neighbours by Fh³/12B.
 double carried_pull(const Profile& profile, const Topology& topology, int joint) {
   if (topology.run(joint - 1).count == 0 || topology.run(joint).count == 0) return 0.0;
-  const double h = 0.5 * (length_of(profile.pieces[joint - 1]) + length_of(profile.pieces[joint]));
+  const double h = span_of(profile, topology, joint);
   return 12.0 * carried_between_strands * profile.material.bending_stiffness / (h * h * h);
 }
 
@@ -259,11 +278,8 @@ double least_curvature_at(const Profile& profile, const Contact& c) {
 /// Strands that come near each other. Those of a line of theirs count as one link: where it is nearest.
 std::vector<ContactEvent> approach_events(const Profile& profile, const Topology& topology) {
   const int count = static_cast<int>(profile.pieces.size());
-  std::vector<int> beside(count), name(count);
-  for (int i = 0; i < count; ++i) {
-    beside[i] = topology.beside(i);
-    name[i] = beside[i] >= 0 && i > 0 && beside[i - 1] >= 0 ? name[i - 1] : i;
-  }
+  std::vector<int> name(count);
+  for (int i = 0; i < count; ++i) name[i] = topology.along(i) ? topology.run(i).first : i;
   std::vector<ContactEvent> events;
   for (const chain::Approach& near : chain::approaches(profile, topology)) {
     ContactEvent event{Kind::approach, near.link, near.distance - 2.0 * profile.radius, near.s};
@@ -271,7 +287,7 @@ std::vector<ContactEvent> approach_events(const Profile& profile, const Topology
     event.mirrored = near.mirrored;
     event.s_other = near.s_other;
     event.named = name[near.link], event.named_other = name[near.other];
-    if (beside[near.link] == near.other && near.mirrored == topology.facing(near.link).image) {
+    if (topology.along(near.link) && topology.faces(near.link, near.other, near.mirrored)) {
       event.value = 1.0 + std::min(event.value, 0.0) / carried_between_strands;
       event.redrawn = true;
     }
@@ -344,6 +360,7 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
     if (c.coupling >= 0 && c.joint != couplings[c.coupling].first) continue;  // one event for the two joints
     events.push_back({Kind::force, c.joint,
                       c.force + (c.coupling < 0 ? 0.0 : carried_pull(profile, topology, c.joint)), c.s});
+    events.back().redrawn = topology.seat(c.joint).part > 0.0;
     if (c.reaction) events.push_back(reaction_event(profile, c));
     // Of a line between strands g'' = 0.
     if (c.edge || topology.run(c.joint).count + topology.run(c.joint - 1).count > 0) continue;

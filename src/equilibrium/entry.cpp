@@ -40,6 +40,67 @@ bool holds(const Entry& entry) {
   return admissible(contact_events(entry.problem->profile(entry.x, entry.p), entry.problem->topology()));
 }
 
+const ContactEvent* most_violated(const std::vector<ContactEvent>& events, double unit, bool redrawn) {
+  using Kind = ContactEvent::Kind;
+  constexpr Kind order[] = {Kind::length,   Kind::approach,  Kind::graze,   Kind::force,
+                            Kind::pressure, Kind::curvature, Kind::reaction};
+  constexpr double rounding = 1e-9, near = 0.1;
+  const auto violated = [&](const ContactEvent& event) {
+    return !event.passes && event.value < -rounding && (event.redrawn || !redrawn);
+  };
+  for (const Kind kind : order) {
+    const ContactEvent* worst = nullptr;
+    for (const ContactEvent& event : events)
+      if (event.kind == kind && violated(event) && (!worst || event.value < worst->value)) worst = &event;
+    if (!worst) continue;
+    if (kind == Kind::approach && !worst->redrawn)
+      for (const ContactEvent& event : events)
+        if (event.kind == Kind::curvature && violated(event) &&
+            std::min(std::abs(event.s - worst->s), std::abs(event.s - worst->s_other)) < near * unit)
+          return &event;
+    return worst;
+  }
+  return nullptr;
+}
+
+bool mend(Entry& at, int most, bool redrawn, int& iterations) {
+  for (int k = 0; k < most; ++k) {
+    const chain::Profile shape = at.problem->profile(at.x, at.p);
+    const Topology& topology = at.problem->topology();
+    const std::vector<ContactEvent> events = contact_events(shape, topology);
+    if (getenv("DBG")) {
+      fprintf(stderr, "mend %s\n", topology.text().c_str());
+      for (double q : at.problem->joint_places(at.x, at.p, shape)) fprintf(stderr, "%.5f ", q);
+      for (auto& e : events)
+        if (e.value < 1e-6)
+          fprintf(stderr, "\n   %s %.4g at %.5f %.5f", e.name().c_str(), e.value, e.s, e.s_other);
+      fprintf(stderr, "\n");
+    }
+    const ContactEvent* violated = most_violated(events, shape.unit_length, redrawn);
+    if (!violated) return admissible(events);
+    std::vector<Successor> all =
+        successors(*violated, shape, topology, at.problem->joint_places(at.x, at.p, shape));
+    // What has just been laid anew is not laid anew once more: only what is too near is filled.
+    if (violated->kind == ContactEvent::Kind::approach && violated->redrawn && k > 0)
+      all.erase(all.begin(), all.end() - 1);
+    if (violated->kind == ContactEvent::Kind::force && violated->redrawn)
+      std::reverse(all.begin(), all.end());
+    bool found = false;
+    for (Successor& next : all) {
+      std::sort(next.s.begin(), next.s.end());  // what has changed places
+      Entry entry = draft(*at.problem, next, shape, at.p);
+      const int used = entry.problem->polish(entry.x, entry.p);
+      if (used < 0) continue;
+      iterations += used;
+      at = entry;
+      found = true;
+      break;
+    }
+    if (!found) return false;
+  }
+  return false;
+}
+
 Entry draft(const RodProblem& from, const Successor& next, const chain::Profile& shape, const Vector& p) {
   std::vector<chain::ArcMesh> meshes;
   for (int source : next.source)
@@ -47,7 +108,7 @@ Entry draft(const RodProblem& from, const Successor& next, const chain::Profile&
   const std::vector<chain::Stretch>&before = from.topology().stretches, &now = next.topology.stretches;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const double length = next.s[i + 1] - next.s[i];
-    const bool along_strand = next.topology.beside(static_cast<int>(i)) >= 0;
+    const bool along_strand = next.topology.along(static_cast<int>(i));
     if ((now[i] == chain::Stretch::line || along_strand) && length > 0.0 && std::isfinite(length))
       meshes[i].nodes = inherited(shape, next.s[i], next.s[i + 1]);
     if (along_strand) continue;  // many, and each as short as need be

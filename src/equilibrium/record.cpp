@@ -306,6 +306,7 @@ std::string chain_of(const RodProblem& problem) {
     chain["on"].push_back(seat.obstacle);
     chain["strands"].push_back(seat.strand);
     chain["parts"].push_back(seat.part);
+    chain["lines"].push_back(seat.line);
   }
   for (const auto& mesh : problem.meshes())
     chain["meshes"].push_back({{"nodes", mesh.nodes}, {"stages", mesh.stages}});
@@ -330,8 +331,10 @@ std::shared_ptr<RodProblem> rebuild(const scene::Scene& scene, const std::string
   for (int k : chain.at("stretches")) topology.stretches.push_back(static_cast<Stretch>(k));
   const auto on = chain.value("on", std::vector<int>()), strands = chain.value("strands", std::vector<int>());
   const auto parts = chain.value("parts", std::vector<double>());
+  const auto lines = chain.value("lines", std::vector<int>());
   for (std::size_t j = 0; j < on.size(); ++j)
-    topology.on.push_back({on[j], j < strands.size() ? strands[j] : 0, j < parts.size() ? parts[j] : 0.0});
+    topology.on.push_back({on[j], j < strands.size() ? strands[j] : 0, j < parts.size() ? parts[j] : 0.0,
+                           j < lines.size() ? lines[j] : 0});
   std::vector<chain::ArcMesh> meshes;
   for (const auto& mesh : chain.at("meshes"))
     meshes.push_back({mesh.at("nodes").get<std::vector<double>>(), mesh.at("stages").get<int>()});

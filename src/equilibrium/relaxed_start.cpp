@@ -20,7 +20,6 @@ using chain::Stretch;
 using discrete_rod::SplineRod;
 using discrete_rod::ThickContacts;
 using Eigen::Vector3d;
-using Kind = ContactEvent::Kind;
 
 namespace {
 
@@ -39,18 +38,17 @@ chain::Profile profile_of(const discrete_rod::ThickRod& thick, const SplineRod& 
     const int e = std::min(static_cast<int>(k / samples), rod.elements() - 1);
     const double t = static_cast<double>(k - samples * e) / samples, h = rod.length(e);
     const SplineRod::Controls controls = rod.controls(minimum.x, e);
-    const Vector3d slope = controls * discrete_rod::cubic_weights(t, 1) / h,
-                   tangent = slope.normalized(),
+    const Vector3d slope = controls * discrete_rod::cubic_weights(t, 1) / h, tangent = slope.normalized(),
                    bend = controls * discrete_rod::cubic_weights(t, 2) / (h * h);
     piece.s(k) = rod.knot(e) + t * h;
     piece.r.col(k) = controls * discrete_rod::cubic_weights(t, 0);
     piece.m.col(k) = tangent.cross(bend) / slope.squaredNorm();
     if (k == 0) {
-      piece.q.col(k) =
-          contact::spatial::surface_frame(0.0, std::atan2(tangent(2), tangent(0)), 0.0);
+      piece.q.col(k) = contact::spatial::surface_frame(0.0, std::atan2(tangent(2), tangent(0)), 0.0);
     } else {
       const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(before, tangent);
-      piece.q.col(k) = rod::product(rod::Quaternion(turn.w(), turn.x(), turn.y(), turn.z()), piece.q.col(k - 1));
+      piece.q.col(k) =
+          rod::product(rod::Quaternion(turn.w(), turn.x(), turn.y(), turn.z()), piece.q.col(k - 1));
       const double angle = obstacle::Cylinder::angle(piece.r.col(k));
       piece.angle(k) = piece.angle(k - 1) + std::remainder(angle - piece.angle(k - 1), 2.0 * M_PI);
     }
@@ -94,45 +92,10 @@ Strip strip_of(const ThickContacts& contacts, double half_length) {
   for (const discrete_rod::StrandTouch& touch : contacts.strands) {
     ++strand;
     strip.cut(strip.part_at(touch.s), touch.s, {0, strand});
-    if (!touch.own_image) strip.cut(strip.part_at(touch.other), touch.other, {0, touch.mirrored ? -strand : strand});
+    if (!touch.own_image)
+      strip.cut(strip.part_at(touch.other), touch.other, {0, touch.mirrored ? -strand : strand});
   }
   return strip;
-}
-
-/// The violated condition to see to first: what is in the wrong order, then what overlaps, then what pulls.
-const ContactEvent* most_violated(const std::vector<ContactEvent>& events) {
-  constexpr Kind order[] = {Kind::length,   Kind::approach,  Kind::graze,   Kind::force,
-                            Kind::pressure, Kind::curvature, Kind::reaction};
-  constexpr double rounding = 1e-9;
-  for (const Kind kind : order) {
-    const ContactEvent* worst = nullptr;
-    for (const ContactEvent& event : events)
-      if (event.kind == kind && !event.passes && event.value < -rounding &&
-          (!worst || event.value < worst->value))
-        worst = &event;
-    if (worst) return worst;
-  }
-  return nullptr;
-}
-
-/// Goes on to the contacts that follow where one is violated, as on a branch.
-/// @returns whether all hold; nothing where Newton does not converge on what follows
-std::optional<bool> mend(Started& at) {
-  const chain::Profile shape = at.problem->profile(at.x, at.p);
-  const Topology& topology = at.problem->topology();
-  const std::vector<ContactEvent> events = contact_events(shape, topology);
-  const ContactEvent* violated = most_violated(events);
-  if (!violated) return true;
-  for (Successor& next :
-       successors(*violated, shape, topology, at.problem->joint_places(at.x, at.p, shape))) {
-    std::sort(next.s.begin(), next.s.end());  // what has changed places
-    Entry entry = draft(*at.problem, next, shape, at.p);
-    const int used = entry.problem->polish(entry.x, entry.p);
-    if (used < 0) continue;
-    at = {entry.problem, entry.x, entry.p, at.newton_iterations + used};
-    return false;
-  }
-  return std::nullopt;
 }
 
 }  // namespace
@@ -154,20 +117,21 @@ std::optional<Started> relaxed_start(const scene::Scene& scene, const std::vecto
   choose_tails(meshes, next.topology, rod_of(scene, true), loads, next.s);
   auto problem = std::make_shared<RodProblem>(scene, true, next.topology, meshes, keys);
   const Vector p = problem->parameters();
-  Started start{problem, chain::guess_state(problem->chain(), next.topology, problem->rod(), shape, next.s), p};
+  Started start{problem, chain::guess_state(problem->chain(), next.topology, problem->rod(), shape, next.s),
+                p};
   start.newton_iterations = problem->polish(start.x, start.p);
   if (start.newton_iterations < 0)
     return failure = "Newton did not converge on the contacts " + next.topology.text(), std::nullopt;
   constexpr int most = 60;
-  for (int k = 0; k < most; ++k) {
-    const std::optional<bool> holds = mend(start);
-    if (!holds) break;
-    if (!*holds) continue;
-    start.x = start.problem->refine(start.x, start.p);
-    const chain::Profile fine = start.problem->profile(start.x, start.p);
-    if (!most_violated(contact_events(fine, start.problem->topology()))) return start;
+  Entry found{start.problem, start.x, start.p};
+  for (int k = 0; k < 3 && mend(found, most, false, start.newton_iterations); ++k) {
+    found.x = found.problem->refine(found.x, found.p);
+    const chain::Profile fine = found.problem->profile(found.x, found.p);
+    const bool hold = !most_violated(contact_events(fine, found.problem->topology()), fine.unit_length);
+    if (hold) return Started{found.problem, found.x, found.p, start.newton_iterations};
   }
-  return failure = "no contacts were found that hold all, last " + start.problem->topology().text(), std::nullopt;
+  return failure = "no contacts were found that hold all, last " + found.problem->topology().text(),
+         std::nullopt;
 }
 
 }  // namespace windlass::equilibrium

@@ -70,11 +70,19 @@ std::optional<double> locate_from_beyond(Entry& entry, double s, std::optional<s
 /// Solves for the successor right here, or a little to either side, with its contacts intact.
 bool settle_beside(Entry& entry, const std::vector<double>& offsets) {
   const Vector p = entry.p, guess = entry.x;
+  const std::shared_ptr<RodProblem> problem = entry.problem;
   for (const double offset : offsets) {
     entry.p = p;
     entry.x = guess;
     entry.p(0) += offset;
-    if (tried([&] { return entry.problem->polish(entry.x, entry.p, 18) >= 0 && holds(entry); })) return true;
+    constexpr int most = 18, most_redrawn = 12;
+    int iterations = 0;
+    if (tried([&] {
+          return entry.problem->polish(entry.x, entry.p, most) >= 0 &&
+                 (holds(entry) || mend(entry, most_redrawn, true, iterations));
+        }))
+      return true;
+    entry.problem = problem;
   }
   return false;
 }
@@ -192,8 +200,9 @@ std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const 
   }
   Entry beside = guess;
   const double scale = std::max(1.0, std::abs(beside.p(0)));
-  const bool settled = becomes_touch
-                           ? settle_touch(beside)
+  const bool settled = becomes_touch ? settle_touch(beside)
+                       : event.redrawn
+                           ? settle_beside(beside, {0.0})
                            : settle_beside(beside, {0.0, -0.02 * scale, 0.02 * scale, -0.008 * scale,
                                                     0.008 * scale, -0.002 * scale, 0.002 * scale});
   return settled ? std::optional(beside) : std::nullopt;

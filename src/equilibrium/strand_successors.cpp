@@ -23,8 +23,9 @@ std::optional<Successor> strand_passes_edge(int link, Strip strip) {
   strip.parts[link].kind = line ? Stretch::gap : Stretch::line;
   strip.parts[link].fresh = true;
   const int edge = from_left ? link : link + 1, other = from_left ? link + 1 : link;
-  std::swap(strip.on[edge].strand, strip.on[other].strand);
-  strip.on[other].obstacle = strip.on[edge].obstacle;
+  const int obstacle = strip.on[edge].obstacle;
+  std::swap(strip.on[edge], strip.on[other]);
+  strip.on[edge].obstacle = strip.on[other].obstacle = obstacle;
   return strip.successor();
 }
 
@@ -37,10 +38,26 @@ std::optional<Successor> touches_pass(int link, Strip strip) {
     strip.on[1].strand = -strip.on[1].strand;
   } else {
     if (strand(link) == 0 || strand(link + 1) == 0 || strand(link) == strand(link + 1)) return std::nullopt;
-    std::swap(strip.on[link].strand, strip.on[link + 1].strand);
+    std::swap(strip.on[link], strip.on[link + 1]);
+    std::swap(strip.on[link].obstacle, strip.on[link + 1].obstacle);
   }
   strip.parts[link].fresh = true;
   return strip.successor();
+}
+
+/// What is marked on the touch that two become, the one at `joint` and the next: of a line of these two alone nothing; else they
+/// are of the same line now, inside it if either was one.
+void unite_marks(int joint, Strip& strip) {
+  chain::Seat &first = strip.on[joint], &second = strip.on[joint + 1];
+  const int low = first.line, high = second.line;
+  if (low == high) {
+    first.line = 0;
+    return;
+  }
+  for (chain::Seat& seat : strip.on)
+    if (seat.line == high && low != 0 && high != 0) seat.line = low;
+  first.line = low != 0 ? low : high;
+  first.part = low != 0 && high != 0 ? 0.5 : 0.0;
 }
 
 /// Two touches of the same two strands meet, at both places, and are one.
@@ -49,13 +66,18 @@ std::optional<Successor> touches_meet(int link, Strip strip) {
     return std::nullopt;
   const int first = partner(strip, link), second = partner(strip, link + 1);
   if (first == link + 1) {  // a line between a strand and its own image
+    unite_marks(link, strip);
     strip.collapse(link);
     return strip.successor();
   }
   if (std::abs(first - second) != 1) return std::nullopt;
   const int other = std::min(first, second), strand = strip.on[link].strand;
-  for (const int joint : {other, link}) strip.on[joint].strand = strand;
+  for (const int joint : {other, link}) {
+    unite_marks(joint, strip);
+    strip.on[joint].strand = strand;
+  }
   for (const int gap : {std::max(link, other), std::min(link, other)}) strip.collapse(gap);
+  measure_parts(strip);
   return strip.successor();
 }
 
@@ -86,6 +108,7 @@ std::vector<Successor> strands_part(int j, Strip strip) {
     strip.merge(joint - 1, joint, joined(strip.parts[joint - 1].kind, strip.parts[joint].kind));
     if (j == other) break;
   }
+  measure_parts(strip);
   return {strip.successor()};
 }
 
@@ -115,38 +138,41 @@ std::vector<Successor> strands_meet(const ContactEvent& event, Strip strip) {
 std::vector<Successor> strands_split(const ContactEvent& event, const Strip& strip,
                                      const chain::Profile& profile) {
   const int j = event.place, other = partner(strip, j);
+  const int old = strip.on[j].strand, fresh = new_strand(strip);
   std::vector<Successor> out;
-  for (const double part : {0.05, 0.02, 0.1}) {
-    const double length = part * profile.unit_length;
-    Strip split = strip;
-    const auto widen = [&](int joint, int before, int after) {
-      const bool on_line = split.is_line(joint - 1) && split.is_line(joint);
-      split.split(joint, strip.s[joint] + 0.5 * length, on_line ? Stretch::line : Stretch::gap,
-                  split.parts[joint].kind);
-      split.on[joint + 1] = split.on[joint];
-      split.s[joint] -= 0.5 * length;
-      split.on[joint].strand = before;
-      split.on[joint + 1].strand = after;
-      split.parts[joint].fresh = true;
-    };
-    const int old = strip.on[j].strand, fresh = new_strand(strip);
-    if (j == other) {
-      widen(j, old, -old);
-      out.push_back(split.successor());
-      continue;
+  // Two touches, the strands apart between them, or the ends of a line. On obstacles two touches next to each other are that.
+  for (const int line : {0, fresh})
+    for (const double part : {0.05, 0.02, 0.1}) {
+      const double length = part * profile.unit_length;
+      Strip split = strip;
+      const auto widen = [&](int joint, int before, int after) {
+        const bool on_line = split.is_line(joint - 1) && split.is_line(joint);
+        split.split(joint, strip.s[joint] + 0.5 * length, on_line ? Stretch::line : Stretch::gap,
+                    split.parts[joint].kind);
+        split.on[joint].line = line;
+        split.on[joint + 1] = split.on[joint];
+        split.s[joint] -= 0.5 * length;
+        split.on[joint].strand = before;
+        split.on[joint + 1].strand = after;
+        split.parts[joint].fresh = true;
+      };
+      if (j == other) {
+        widen(j, old, -old);
+        out.push_back(split.successor());
+        continue;
+      }
+      for (const bool opposite : {true, false}) {
+        split = strip;
+        const int low = std::min(j, other), high = std::max(j, other);
+        const int sign = strip.on[low].strand == strip.on[high].strand ? 1 : -1;
+        const int first = std::abs(strip.on[low].strand);
+        // Images run the other way.
+        const bool crossed = opposite == (sign > 0);
+        widen(high, sign * (crossed ? fresh : first), sign * (crossed ? first : fresh));
+        widen(low, first, fresh);
+        out.push_back(split.successor());
+      }
     }
-    for (const bool opposite : {true, false}) {
-      split = strip;
-      const int low = std::min(j, other), high = std::max(j, other);
-      const int sign = strip.on[low].strand == strip.on[high].strand ? 1 : -1;
-      const int first = std::abs(strip.on[low].strand);
-      // Images run the other way.
-      const bool crossed = opposite == (sign > 0);
-      widen(high, sign * (crossed ? fresh : first), sign * (crossed ? first : fresh));
-      widen(low, first, fresh);
-      out.push_back(split.successor());
-    }
-  }
   return out;
 }
 

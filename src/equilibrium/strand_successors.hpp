@@ -14,13 +14,26 @@ int partner(const Strip& strip, int j);
 /// A mark that no touch has yet, see chain::Seat.
 int new_strand(const Strip& strip);
 
-/// A touch inside a line between strands pulls: it is taken out. nullopt: it is in none.
-std::optional<Successor> line_opens(int joint, Strip strip);
+/// The line of a touch and the next one of the same two strands, where these overlap beside both. nullopt: there is none.
+std::optional<Successor> line_with_next(int joint, const chain::Profile& profile,
+                                        const chain::Topology& topology, Strip strip);
 
-/// Two strands that meet between two touches of theirs that are next to each other on either, at all places where they do: these
-/// are touches of a line. nullopt: elsewhere.
+/// Two strands that meet between two touches of theirs, or ends of lines, all of which are of one line now. nullopt: elsewhere.
+std::optional<Successor> line_closes(const ContactEvent& event, const chain::Topology& topology, Strip strip);
+
+/// A line whose touches are not enough, with more of them where the strands are too near; nullopt: the link is in none.
 std::optional<Successor> line_filled(const ContactEvent& event, const chain::Profile& profile,
                                      const chain::Topology& topology, Strip strip);
+
+/// A line that goes on to the next touch of the two strands: hardly anything parts its end from that. nullopt: it ends where it is.
+std::optional<Successor> line_goes_on(int link, const chain::Profile& profile,
+                                      const chain::Topology& topology, const Strip& strip);
+
+/// Measures where touches inside lines between strands are, as parts of these, after their ends have changed.
+void measure_parts(Strip& strip);
+
+/// A touch of a line between free strands pulls: the line opens there, and ends at the touches beside. nullopt: it is in none.
+std::optional<Successor> line_opens(int joint, const chain::Topology& topology, Strip strip);
 
 /// A line between strands that `link` belongs to, with fewer or more touches; nothing where there is none, or no touch inside.
 std::optional<Successor> line_with_fewer_touches(const chain::Profile& profile,

@@ -200,10 +200,15 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
     case Kind::force:
       for (const int link : {event.place - 1, event.place})
         if (vanishes(strip, link)) return after_length(link, strip);
-      if (const auto opened = line_opens(event.place, strip)) return {*opened};
+      if (const auto opened = line_opens(event.place, topology, strip)) {
+        std::vector<Successor> out = {*opened}, parted = strands_part(event.place, strip);
+        out.insert(out.end(), parted.begin(), parted.end());
+        return out;
+      }
       if (strip.on[event.place].strand != 0) return strands_part(event.place, strip);
       return after_force(event, strip, profile, topology);
     case Kind::curvature:
+      if (const auto line = line_with_next(event.place, profile, topology, strip)) return {*line};
       if (strip.on[event.place].strand != 0) return strands_split(event, strip, profile);
       return after_curvature(event, strip, profile);
     case Kind::graze:
@@ -213,8 +218,18 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
     case Kind::reaction:
       return strand_lifts(event.place, strip);
     case Kind::approach:
-      if (const auto more = line_with_more_touches(profile, topology, event.place, strip)) return {*more};
-      if (const auto line = line_filled(event, profile, topology, strip)) return {*line};
+      if (event.redrawn) {
+        std::vector<Successor> out;
+        if (const auto longer = line_goes_on(event.place, profile, topology, strip)) out.push_back(*longer);
+        out.push_back(*line_with_more_touches(profile, topology, event.place, strip));
+        out.push_back(*line_filled(event, profile, topology, strip));
+        return out;
+      }
+      if (const auto closed = line_closes(event, topology, strip)) {
+        std::vector<Successor> out = strands_meet(event, strip);
+        out.push_back(*closed);
+        return out;
+      }
       return strands_meet(event, strip);
   }
   return {};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct Seat {
   int strand = 0;
   /// Inside a line between strands: where between its ends this touch is (chain/coupling.hpp).
   double part = 0.0;
+  /// Touches next to each other with the same number stand for a line between strands; 0: not one, unless both lie on obstacles.
+  int line = 0;
   bool operator==(const Seat& other) const = default;
 };
 
@@ -46,25 +49,43 @@ struct Topology {
   bool beside_strand(int link) const { return seat(link).strand != 0 || seat(link + 1).strand != 0; }
   /// The other joint of a touch between strands; the joint itself where it touches its own image; −1: it touches no strand.
   int partner(int joint) const;
-  /// The link between the same two touches as this one, which are next to each other on either strand. It may be its own image.
+  /// The touches between strands that a link lies between, next to each other along the rod: joints. What touches an obstacle
+  /// between them, or a line's edge, does not count. nullopt: there are no two.
+  struct Interval {
+    int begin = 0, end = 0;
+    bool operator==(const Interval& other) const = default;
+  };
+  std::optional<Interval> between_touches(int link) const;
+  /// The part of the rod between the same two touches, on the other strand; it may be its own image.
   struct Facing {
-    int link = -1;       ///< −1: none
+    Interval interval;
     bool image = false;  ///< of the half-turn: it runs the other way
   };
-  Facing facing(int link) const;
-  /// The link that this one touches all along: it faces it, and both lie on an obstacle, or belong to a row of touches that stands
-  /// for a line (Seat::part). −1: none.
-  int beside(int link) const;
-  /// The links of the line between strands that a link belongs to, none where it is beside none.
+  std::optional<Facing> facing(int link) const;
+  bool faces(int link, int other, bool image) const;
+  /// Do the two strands touch all along this link and what faces it? Both lie on an obstacle, or the touches that they are between
+  /// stand for a line (Seat::line).
+  bool along(int link) const { return run(link).count > 0; }
+  /// Of two strands that touch all along, are both on an obstacle, without an edge between touches?
+  bool along_on_obstacle(int link) const;
+  /// The links of the line between strands that a link belongs to, none where it is in none.
   struct Run {
     int first = 0, count = 0;
   };
   Run run(int link) const;
+  /// Those that face it.
+  Run run_facing(int link) const;
   /// Whole rod, e.g. "tail touch gap line gap touch tail"; a contact on the second obstacle reads "touch:2", one with
   /// another strand "cross".
   std::string text() const;
   bool contact() const;
   bool operator==(const Topology& other) const;
+
+ private:
+  std::optional<Facing> facing(const Interval& interval) const;
+  /// Is this what is between two touches of a line?
+  bool in_line(const Interval& interval) const;
+  bool lies_on_obstacle(const Interval& interval) const;
 };
 
 /// The whole rod of a half chain.
