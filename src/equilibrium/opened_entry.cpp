@@ -60,6 +60,17 @@ bool bring_to(Entry& entry, int link, double p) {
   return std::abs(last_p - p) <= close;
 }
 
+/// Are two touches that one has split into, no line of theirs, nearer between each other than 2r? Told while they are well apart:
+/// what is left of that as they come together is rounding.
+bool overlaps_between(Entry& at, int link) {
+  const chain::Topology& topology = at.problem->topology();
+  if (topology.along(link) || !topology.facing(link)) return false;
+  const chain::Profile shape = at.problem->profile(at.x, at.p);
+  return std::any_of(shape.contacts.begin(), shape.contacts.end(), [&](const chain::Contact& c) {
+    return c.coupling >= 0 && (c.joint == link || c.joint == link + 1) && c.gap_curvature < 0.0;
+  });
+}
+
 }  // namespace
 
 std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, int depth, bool as_long,
@@ -84,6 +95,7 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, i
     if (!solve()) return std::nullopt;
   }
   if (as_long && !in_place && !bring_to(entry, opened.front(), p)) return std::nullopt;
+  if (overlaps_between(entry, opened.front())) return std::nullopt;
   const chain::Profile shape = entry.problem->profile(entry.x, entry.p);
   const Topology& topology = entry.problem->topology();
   const std::vector<ContactEvent> events = contact_events(shape, topology);

@@ -66,19 +66,18 @@ std::optional<Started> thick_coil(const scene::Scene& scene, bool half, const st
   return from ? reach(*from, scene, scene.load.tension, half, keys, failure) : std::nullopt;
 }
 
-/// A knot, relaxed at a tension at which its contacts are few, then tightened or loosened.
+/// A knot, relaxed at its tension or one at which its contacts are few, then tightened or loosened.
 std::optional<Started> knot_start(const scene::Scene& scene, bool half, const std::vector<std::string>& keys,
                                   std::string& failure) {
   constexpr double loose = 0.3, tight = 2.0;
-  scene::Scene at = scene;
-  at.load.tension = std::clamp(scene.load.tension, loose, tight);
-  const bool here = at.load.tension == scene.load.tension;
-  const std::vector<std::string> path{"load.tension"};
-  std::optional<Started> from =
-      relaxed_start(at, knot::clove_hitch(scene.rod_radius), here ? keys : path, failure);
-  if (!from) return std::nullopt;
-  if (here) return half ? from : unfold(*from->problem, from->x, from->p, from->newton_iterations);
-  return reach(*from, scene, scene.load.tension, half, keys, failure);
+  for (const double tension : {std::clamp(scene.load.tension, loose, tight), 1.0, 1.5, 0.6}) {
+    scene::Scene at = scene;
+    at.load.tension = tension;
+    const std::optional<Started> from =
+        relaxed_start(at, knot::clove_hitch(scene.rod_radius), {"load.tension"}, failure);
+    if (from) return reach(*from, scene, scene.load.tension, half, keys, failure);
+  }
+  return std::nullopt;
 }
 
 }  // namespace

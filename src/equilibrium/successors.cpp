@@ -226,8 +226,11 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
         return out;
       }
       if (const auto closed = line_closes(event, topology, strip)) {
+        // Beside a line hardly anything parts it from what comes next; between two touches a third is one by itself at first.
+        const chain::Topology::Interval here = *topology.between_touches(event.place);
+        const bool beside_line = strip.on[here.begin].line != 0 || strip.on[here.end].line != 0;
         std::vector<Successor> out = strands_meet(event, strip);
-        out.push_back(*closed);
+        out.insert(beside_line ? out.begin() : out.end(), *closed);
         return out;
       }
       return strands_meet(event, strip);
