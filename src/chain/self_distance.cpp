@@ -312,15 +312,20 @@ std::vector<Approach> approaches(const Profile& profile, const Topology& topolog
     }
     out.push_back(near);
   };
-  std::vector<bool> in_line(links);
-  for (int i = 0; i < links; ++i) in_line[i] = topology.along(i);
+  const Strands strands(topology);
+  std::vector<int> in_line(links);
+  for (int i = 0; i < links; ++i) in_line[i] = strands.line_along(i);
   for (int i = 0; i < links; ++i)
     for (int j = 0; j <= i; ++j) {
       // Of two lines between strands a link is near what faces it only.
-      const bool along = in_line[i] && in_line[j];
-      const auto looked_at = [&](bool image) { return !along || topology.faces(i, j, image); };
-      if (looked_at(false)) add(i, j, false, along);
-      if (topology.half && looked_at(true)) add(i, j, true, along);
+      const bool along = in_line[i] >= 0 && in_line[j] >= 0;
+      const auto look = [&](bool image) {
+        const Strands::Facing* faced = strands.facing(i, j, image);
+        if (faced || !along)
+          add(i, j, image, faced && faced->line >= 0 && !strands.lines()[faced->line].on_obstacles);
+      };
+      look(false);
+      if (topology.half) look(true);
     }
   return out;
 }

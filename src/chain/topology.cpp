@@ -159,8 +159,17 @@ Topology unfolded(const Topology& t) {
   whole.stretches.insert(whole.stretches.end(), t.stretches.begin() + skipped, t.stretches.end());
   if (t.on.empty()) return whole;
   whole.on.assign(t.on.rbegin(), t.on.rend() - 1);
-  for (Seat& seat : whole.on)
+  const Strands strands(t);
+  const int shift = static_cast<int>(t.on.size());
+  for (int j = 0; j < static_cast<int>(whole.on.size()); ++j) {
+    Seat& seat = whole.on[j];
     if (seat.part > 0.0) seat.part = 1.0 - seat.part;
+    // A line with the own image is one of two strands now; another has an image of its own.
+    const int line = strands.line_of(static_cast<int>(t.on.size()) - 1 - j);
+    if (seat.line != 0 && line >= 0)
+      seat.line =
+          strands.lines()[line].own_image() ? -seat.line : seat.line + (seat.line > 0 ? shift : -shift);
+  }
   whole.on.insert(whole.on.end(), t.on.begin() + skipped, t.on.end());
   // Each contact between strands has an image; the two of a mirrored pair change partners, the one with its own image has
   // none. Of joints from −L/2 the left half's come first.
@@ -179,99 +188,20 @@ Topology unfolded(const Topology& t) {
   return whole;
 }
 
-int Topology::partner(int joint) const {
-  const int strand = std::abs(seat(joint).strand);
-  if (strand == 0) return -1;
-  for (int k = 0; k < static_cast<int>(on.size()); ++k)
-    if (k != joint && std::abs(on[k].strand) == strand) return k;
-  return joint;
-}
-
-std::optional<Topology::Interval> Topology::between_touches(int link) const {
-  const int last = static_cast<int>(stretches.size());
-  Interval out{link, link + 1};
-  while (out.begin > 0 && seat(out.begin).strand == 0) --out.begin;
-  while (out.end < last && seat(out.end).strand == 0) ++out.end;
-  if (seat(out.begin).strand == 0 || seat(out.end).strand == 0) return std::nullopt;
-  return out;
-}
-
-std::optional<Topology::Facing> Topology::facing(const Interval& interval) const {
-  const int begin = partner(interval.begin), end = partner(interval.end);
-  const auto mirrored = [&](int joint, int other) {
-    return joint == other || seat(joint).strand != seat(other).strand;
-  };
-  // Strands side by side run the same way, images the other way.
-  const bool image = mirrored(interval.begin, begin);
-  if (image != mirrored(interval.end, end) || (image ? end >= begin : begin >= end)) return std::nullopt;
-  const auto there = between_touches(image ? end : begin);
-  const Interval other = image ? Interval{end, begin} : Interval{begin, end};
-  return there == other ? std::optional(Facing{other, image}) : std::nullopt;
-}
-
-std::optional<Topology::Facing> Topology::facing(int link) const {
-  const auto interval = between_touches(link);
-  return interval ? facing(*interval) : std::nullopt;
-}
-
-bool Topology::faces(int link, int other, bool image) const {
-  const auto faced = facing(link);
-  return faced && faced->image == image && between_touches(other) == faced->interval;
-}
-
-bool Topology::lies_on_obstacle(const Interval& interval) const {
-  return interval.end == interval.begin + 1 && stretches[interval.begin] == Stretch::line;
-}
-
-bool Topology::in_line(const Interval& interval) const {
-  const auto faced = facing(interval);
-  if (!faced) return false;
-  const int line = seat(interval.begin).line;
-  return (lies_on_obstacle(interval) && lies_on_obstacle(faced->interval)) ||
-         (line != 0 && seat(interval.end).line == line);
-}
-
-bool Topology::along_on_obstacle(int link) const {
-  const auto interval = between_touches(link);
-  const auto faced = interval ? facing(*interval) : std::nullopt;
-  return faced && lies_on_obstacle(*interval) && lies_on_obstacle(faced->interval);
-}
-
-Topology::Run Topology::run(int link) const {
-  const int count = static_cast<int>(stretches.size());
-  if (link < 0 || link >= count) return {};
-  auto interval = between_touches(link);
-  if (!interval || !in_line(*interval)) return {};
-  const auto goes_on = [&](int joint, const std::optional<Interval>& next) {
-    if (!next || !in_line(*next)) return false;
-    return seat(joint).line != 0 ||
-           (stretches[joint - 1] == Stretch::line && stretches[joint] == Stretch::line);
-  };
-  int first = interval->begin, last = interval->end;
-  for (auto next = first > 0 ? between_touches(first - 1) : std::nullopt; first > 0 && goes_on(first, next);
-       next = first > 0 ? between_touches(first - 1) : std::nullopt)
-    first = next->begin;
-  for (auto next = last < count ? between_touches(last) : std::nullopt; last < count && goes_on(last, next);
-       next = last < count ? between_touches(last) : std::nullopt)
-    last = next->end;
-  return {first, last - first};
-}
-
-Topology::Run Topology::run_facing(int link) const {
-  const auto faced = facing(link);
-  return faced ? run(faced->interval.begin) : Run{};
-}
-
 std::vector<Coupling> Topology::couplings() const {
   std::vector<Coupling> out;
+  const Strands strands(*this);
   for (int j = 0; j < static_cast<int>(on.size()); ++j) {
-    const int other = partner(j);
+    const int other = strands.partner(j);
     if (other < j) continue;
     Coupling c{j, other, other == j || on[other].strand != on[j].strand};
-    const Run before = run(j - 1), after = run(j);
-    c.along = before.count + after.count > 0;
-    if (before.count > 0 && after.count > 0 && !c.with_itself()) {
-      c.begin = before.first, c.end = before.first + before.count;
+    const int line = strands.line_of(j);
+    c.along = line >= 0;
+    if (strands.inside_line(j) && !c.with_itself()) {
+      const StrandLine& all = strands.lines()[line];
+      const bool of_first = std::find(all.first.begin(), all.first.end(), j) != all.first.end();
+      const std::vector<int>& strand = of_first ? all.first : all.second;
+      c.begin = std::min(strand.front(), strand.back()), c.end = std::max(strand.front(), strand.back());
       c.part = on[j].part;
     }
     out.push_back(c);
@@ -282,22 +212,20 @@ std::vector<Coupling> Topology::couplings() const {
 std::string Topology::text() const {
   const Topology whole = unfolded(*this);
   const std::vector<Stretch>& all = whole.stretches;
+  const Strands strands(whole);
   const auto named = [&](const char* contact, std::size_t joint) {
     const int obstacle = whole.obstacle(static_cast<int>(joint));
     return obstacle == 0 ? std::string(contact) : std::string(contact) + ":" + std::to_string(obstacle + 1);
   };
   std::string text;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    // Of a line its ends are named, and where one of its strands meets an edge.
     const int link = static_cast<int>(i);
-    if (i > 0 && whole.along(link) && whole.along(link - 1) && whole.seat(link).strand != 0 &&
-        whole.run(link).first == whole.run(link - 1).first)
-      continue;
+    if (i > 0 && strands.inside_line(link)) continue;  // of a line its ends are named
     const bool touch = i > 0 && (all[i] == Stretch::line) == (all[i - 1] == Stretch::line);
     const bool strand = i > 0 && whole.seat(static_cast<int>(i)).strand != 0;
     if (i > 0) text += !touch ? " " : strand ? " cross " : " " + named("touch", i) + " ";
-    if (whole.along(link))
-      text += all[i] == Stretch::line && !whole.along_on_obstacle(link) ? "lines on" : "lines";
+    if (const int line = strands.line_along(link); line >= 0)
+      text += all[i] == Stretch::line && !strands.lines()[line].on_obstacles ? "lines on" : "lines";
     else
       text += all[i] == Stretch::line ? named(word(all[i]), i) : word(all[i]);
   }

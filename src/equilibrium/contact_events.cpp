@@ -187,47 +187,43 @@ double least_under(const Profile& profile, int line) {
 }
 
 /// Half the distance between the touches on both sides of one inside a line between strands.
-double span_of(const Profile& profile, const Topology& topology, int joint) {
-  const double begin = profile.pieces[topology.between_touches(joint - 1)->begin].s(0),
-               end = profile.pieces[topology.between_touches(joint)->end].s(0);
-  return 0.5 * (end - begin);
+double span_of(const Profile& profile, const chain::Strands& strands, int joint) {
+  const auto [before, after] = strands.neighbours(joint);
+  return 0.5 * (profile.pieces[after].s(0) - profile.pieces[before].s(0));
 }
 
 /// How much nearer strands are between the touches inside a line of theirs, by the pressure p that those stand for: ph⁴/192B.
-double nearer_between(const Profile& profile, const Topology& topology, const Topology::Run& run) {
+double nearer_between(const Profile& profile, const chain::Strands& strands, int line) {
   double most = 0.0;
   for (const Contact& c : profile.contacts) {
-    if (c.coupling < 0 || c.joint <= run.first || c.joint >= run.first + run.count) continue;
-    const double h = span_of(profile, topology, c.joint);
+    if (c.coupling < 0 || strands.line_of(c.joint) != line || !strands.inside_line(c.joint)) continue;
+    const double h = span_of(profile, strands, c.joint);
     most = std::max(most, std::abs(c.force) * h * h * h / (192.0 * profile.material.bending_stiffness));
   }
   return most;
 }
 
-/// Has a line between strands touches inside?
-bool has_inner_touches(const Topology& topology, int link) {
-  const Topology::Run run = topology.run(link);
-  for (int j = run.first + 1; j < run.first + run.count; ++j)
-    if (topology.seat(j).strand != 0) return true;
-  return false;
+/// The line that a link is between two touches of, with others; −1: none. Touches inside a line are where they are laid.
+int line_of_several(const chain::Strands& strands, int link) {
+  const int line = strands.line_of(link);
+  return line >= 0 && line == strands.line_of(link + 1) && strands.lines()[line].links() > 1 ? line : -1;
 }
 
 /// A line between strands needs its touches, or has more than it needs.
-ContactEvent spare_touches(const Profile& profile, const Topology& topology, int i) {
-  const Topology::Run run = topology.run(i);
+ContactEvent spare_touches(const Profile& profile, const chain::Strands& strands, int i, int line) {
   ContactEvent event{Kind::length, i, 1.0, profile.pieces[i].s(0)};
   event.redrawn = true;
-  if (i == run.first)
+  const chain::StrandLine& all = strands.lines()[line];
+  if (i == all.first.front() || i == std::min(all.second.front(), all.second.back()))
     event.value =
-        nearer_between(profile, topology, run) / (spare_between_strands * carried_between_strands) - 1.0;
+        nearer_between(profile, strands, line) / (spare_between_strands * carried_between_strands) - 1.0;
   return event;
 }
 
-ContactEvent length_event(const Profile& profile, const Topology& topology, int i) {
-  // Touches inside a line between strands are where they are laid; an edge may be between two.
-  const bool between_strands = topology.seat(i).strand != 0 && topology.seat(i + 1).strand != 0;
-  if (topology.along(i) && between_strands && has_inner_touches(topology, i))
-    return spare_touches(profile, topology, i);
+ContactEvent length_event(const Profile& profile, const Topology& topology, const chain::Strands& strands,
+                          int i) {
+  if (const int line = line_of_several(strands, i); line >= 0)
+    return spare_touches(profile, strands, i, line);
   const bool begins_at_mid = topology.half && i == 0 && !topology.mid_touch;
   const Piece& piece = profile.pieces[i];
   const bool gap = piece.stretch == Stretch::gap;
@@ -261,9 +257,9 @@ ContactEvent reaction_event(const Profile& profile, const Contact& c) {
 
 /// Of a line between strands the touches inside may pull, as its pressure changes its sign, with what would open the strands by
 /// no more than they may be nearer elsewhere: a force F lifts both over the span h of its neighbours by Fh³/12B.
-double carried_pull(const Profile& profile, const Topology& topology, int joint) {
-  if (topology.run(joint - 1).count == 0 || topology.run(joint).count == 0) return 0.0;
-  const double h = span_of(profile, topology, joint);
+double carried_pull(const Profile& profile, const chain::Strands& strands, int joint) {
+  if (!strands.inside_line(joint)) return 0.0;
+  const double h = span_of(profile, strands, joint);
   return 12.0 * carried_between_strands * profile.material.bending_stiffness / (h * h * h);
 }
 
@@ -276,18 +272,21 @@ double least_curvature_at(const Profile& profile, const Contact& c) {
 }
 
 /// Strands that come near each other. Those of a line of theirs count as one link: where it is nearest.
-std::vector<ContactEvent> approach_events(const Profile& profile, const Topology& topology) {
-  const int count = static_cast<int>(profile.pieces.size());
-  std::vector<int> name(count);
-  for (int i = 0; i < count; ++i) name[i] = topology.along(i) ? topology.run(i).first : i;
+std::vector<ContactEvent> approach_events(const Profile& profile, const Topology& topology,
+                                          const chain::Strands& strands) {
   std::vector<ContactEvent> events;
   for (const chain::Approach& near : chain::approaches(profile, topology)) {
     ContactEvent event{Kind::approach, near.link, near.distance - 2.0 * profile.radius, near.s};
     event.other = near.other;
     event.mirrored = near.mirrored;
     event.s_other = near.s_other;
-    event.named = name[near.link], event.named_other = name[near.other];
-    if (topology.along(near.link) && topology.faces(near.link, near.other, near.mirrored)) {
+    const int line = strands.line_along(near.link), other_line = strands.line_along(near.other);
+    const auto name = [&](int link, int of) { return of >= 0 ? strands.lines()[of].first.front() : link; };
+    event.named = name(near.link, line), event.named_other = name(near.other, other_line);
+    if (const auto* faced = strands.facing(near.link, near.other, near.mirrored); faced && faced->line >= 0) {
+      const chain::StrandLine& all = strands.lines()[faced->line];
+      event.named = std::max(all.first.front(), std::min(all.second.front(), all.second.back()));
+      event.named_other = all.first.front();
       event.value = 1.0 + std::min(event.value, 0.0) / carried_between_strands;
       event.redrawn = true;
     }
@@ -305,11 +304,12 @@ std::vector<ContactEvent> approach_events(const Profile& profile, const Topology
 
 /// An arc beside a touch of strands that has no length left, as at the event itself, says nothing of the touches at its ends:
 /// that it gives way comes first.
-void heed_first_what_vanishes(std::vector<ContactEvent>& events, const Topology& topology) {
+void heed_first_what_vanishes(std::vector<ContactEvent>& events, const Topology& topology,
+                              const chain::Strands& strands) {
   const std::vector<int> gone = vanished_beside_strands(events, topology);
   const auto says_nothing = [&](const ContactEvent& event) {
     if (event.kind != Kind::curvature && event.kind != Kind::reaction) return false;
-    const int partner = topology.partner(event.place);
+    const int partner = strands.partner(event.place);
     return std::any_of(gone.begin(), gone.end(), [&](int link) {
       const auto ends = [&](int joint) { return joint == link || joint == link + 1; };
       return ends(event.place) || (partner >= 0 && ends(partner));
@@ -341,6 +341,7 @@ std::vector<int> vanished_beside_strands(const std::vector<ContactEvent>& events
 
 std::vector<ContactEvent> contact_events(const Profile& profile, const Topology& topology) {
   std::vector<ContactEvent> events;
+  const chain::Strands strands(topology);
   const int count = static_cast<int>(profile.pieces.size());
   for (int i = 0; i < count; ++i) {
     const Piece& piece = profile.pieces[i];
@@ -349,7 +350,7 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
       const auto found = pressure_and_suction(piece, i, at_mid);
       events.insert(events.end(), found.begin(), found.end());
     }
-    events.push_back(length_event(profile, topology, i));
+    events.push_back(length_event(profile, topology, strands, i));
     if (piece.stretch == Stretch::line)
       events.push_back({Kind::buckling, i, piece.buckling.value_or(far), piece.s(0)});
     else
@@ -359,17 +360,17 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
   for (const Contact& c : profile.contacts) {
     if (c.coupling >= 0 && c.joint != couplings[c.coupling].first) continue;  // one event for the two joints
     events.push_back({Kind::force, c.joint,
-                      c.force + (c.coupling < 0 ? 0.0 : carried_pull(profile, topology, c.joint)), c.s});
-    events.back().redrawn = topology.seat(c.joint).part > 0.0;
+                      c.force + (c.coupling < 0 ? 0.0 : carried_pull(profile, strands, c.joint)), c.s});
+    events.back().redrawn = strands.inside_line(c.joint);
     if (c.reaction) events.push_back(reaction_event(profile, c));
     // Of a line between strands g'' = 0.
-    if (c.edge || topology.run(c.joint).count + topology.run(c.joint - 1).count > 0) continue;
+    if (c.edge || strands.line_of(c.joint) >= 0) continue;
     const double bend = c.gap_curvature - least_curvature_at(profile, c);
     events.push_back({Kind::curvature, c.joint, about_to_meet(profile, c) ? 1.0 : bend, c.s});
   }
-  const std::vector<ContactEvent> near = approach_events(profile, topology);
+  const std::vector<ContactEvent> near = approach_events(profile, topology, strands);
   events.insert(events.end(), near.begin(), near.end());
-  heed_first_what_vanishes(events, topology);
+  heed_first_what_vanishes(events, topology, strands);
   return events;
 }
 

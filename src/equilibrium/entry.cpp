@@ -64,6 +64,8 @@ const ContactEvent* most_violated(const std::vector<ContactEvent>& events, doubl
 }
 
 bool mend(Entry& at, int most, bool redrawn, int& iterations) {
+  constexpr int most_laid = 8;
+  int laid = 0;
   for (int k = 0; k < most; ++k) {
     const chain::Profile shape = at.problem->profile(at.x, at.p);
     const Topology& topology = at.problem->topology();
@@ -80,8 +82,8 @@ bool mend(Entry& at, int most, bool redrawn, int& iterations) {
     if (!violated) return admissible(events);
     std::vector<Successor> all =
         successors(*violated, shape, topology, at.problem->joint_places(at.x, at.p, shape));
-    // What has just been laid anew is not laid anew once more: only what is too near is filled.
-    if (violated->kind == ContactEvent::Kind::approach && violated->redrawn && k > 0)
+    // Laid anew again and again, where a line is open inside, what is too near is filled.
+    if (violated->kind == ContactEvent::Kind::approach && violated->redrawn && ++laid > most_laid)
       all.erase(all.begin(), all.end() - 1);
     if (violated->kind == ContactEvent::Kind::force && violated->redrawn)
       std::reverse(all.begin(), all.end());
@@ -106,9 +108,10 @@ Entry draft(const RodProblem& from, const Successor& next, const chain::Profile&
   for (int source : next.source)
     meshes.push_back(from.meshes().empty() ? chain::ArcMesh{} : from.meshes()[source]);
   const std::vector<chain::Stretch>&before = from.topology().stretches, &now = next.topology.stretches;
+  const chain::Strands strands(next.topology);
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const double length = next.s[i + 1] - next.s[i];
-    const bool along_strand = next.topology.along(static_cast<int>(i));
+    const bool along_strand = strands.along(static_cast<int>(i));
     if ((now[i] == chain::Stretch::line || along_strand) && length > 0.0 && std::isfinite(length))
       meshes[i].nodes = inherited(shape, next.s[i], next.s[i + 1]);
     if (along_strand) continue;  // many, and each as short as need be

@@ -18,7 +18,7 @@ double length_of(Entry& entry, int link) {
 void adjust_length(Entry& entry, int link) {
   // Where a line between strands begins, its two touches can hardly be told from one, as those of a gap between two.
   const chain::Topology& topology = entry.problem->topology();
-  const bool line = topology.run(link).count > 0, strand = !line && topology.beside_strand(link);
+  const bool line = chain::Strands(topology).along(link), strand = !line && topology.beside_strand(link);
   const double factor = strand ? 4.0 : 1.5;
   const chain::Chain& chain = entry.problem->chain();
   const auto is_touch = [&](int joint) { return chain.joint(joint).kind() == contact::JointKind::touch; };
@@ -64,7 +64,8 @@ bool bring_to(Entry& entry, int link, double p) {
 /// what is left of that as they come together is rounding.
 bool overlaps_between(Entry& at, int link) {
   const chain::Topology& topology = at.problem->topology();
-  if (topology.along(link) || !topology.facing(link)) return false;
+  const chain::Strands strands(topology);
+  if (strands.along(link) || strands.facing(link).empty()) return false;
   const chain::Profile shape = at.problem->profile(at.x, at.p);
   return std::any_of(shape.contacts.begin(), shape.contacts.end(), [&](const chain::Contact& c) {
     return c.coupling >= 0 && (c.joint == link || c.joint == link + 1) && c.gap_curvature < 0.0;

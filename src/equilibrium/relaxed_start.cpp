@@ -113,8 +113,12 @@ std::optional<Started> relaxed_start(const scene::Scene& scene, const std::vecto
   const chain::Profile shape = profile_of(thick, thick.spline(minimum.h), minimum, contacts);
   const Successor next = strip_of(contacts, loads.half_length).successor();
   std::vector<chain::ArcMesh> meshes;
-  for (std::size_t i = 0; i < next.topology.stretches.size(); ++i)
+  const chain::Strands strands(next.topology);
+  for (std::size_t i = 0; i < next.topology.stretches.size(); ++i) {
     meshes.push_back(first_mesh(next.topology.stretches[i], loads, next.s[i + 1] - next.s[i]));
+    // Between touches of a line arcs are many, and short.
+    if (strands.along(static_cast<int>(i))) meshes.back().nodes = chain::uniform_mesh(1);
+  }
   choose_tails(meshes, next.topology, rod_of(scene, true), loads, next.s);
   auto problem = std::make_shared<RodProblem>(scene, true, next.topology, meshes, keys);
   const Vector p = problem->parameters();

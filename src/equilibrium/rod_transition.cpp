@@ -161,7 +161,7 @@ std::string new_touch_force(const Topology& topology) {
   int newest = 0;
   for (int j = 0; j < static_cast<int>(topology.on.size()); ++j)
     if (std::abs(topology.on[j].strand) > std::abs(topology.on[newest].strand)) newest = j;
-  return "force " + std::to_string(std::min(newest, topology.partner(newest)));
+  return "force " + std::to_string(std::min(newest, chain::Strands(topology).partner(newest)));
 }
 
 /// Solves for the successor of an event. @param precision  set where the state found is the event itself

@@ -45,9 +45,22 @@ std::optional<Started> by_continuation(const scene::Scene& scene, bool spatial, 
   return reach(*from, scene, scene.load.tension, half, keys, failure);
 }
 
-/// A coil whose rod keeps off itself: the flat one thickened, or where that cannot be, thickened at a tension at which its turns
-/// lie apart and still press on each other, then tightened or loosened. Thickened under high tension several turns would go
-/// through a change of contact each.
+/// Can the discrete rod stand for it? It knows no torsion, and ends free of moment alone.
+bool may_relax(const scene::Scene& scene) {
+  return scene.ends.left_kind() == scene::EndKind::moment_free &&
+         scene.ends.right_kind() == scene::EndKind::moment_free && scene.rod.natural_curvature == 0.0 &&
+         scene.rod.natural_twist == 0.0 && scene.rod.bending_stiffness_2 == scene.rod.bending_stiffness;
+}
+
+/// The same on the chain that is asked for.
+std::optional<Started> on_chain(const std::optional<Started>& found, bool half) {
+  if (!found || half) return found;
+  return unfold(*found->problem, found->x, found->p, found->newton_iterations);
+}
+
+/// A coil whose rod keeps off itself: the flat one thickened; one of several turns under high tension, where each would go through
+/// a change of contact, relaxed as a discrete rod; or where that fails, thickened at a tension at which its turns lie apart and
+/// still press on each other, then tightened or loosened.
 std::optional<Started> thick_coil(const scene::Scene& scene, bool half, const std::vector<std::string>& keys,
                                   std::string& failure) {
   constexpr double loose_tension = 1.5, high = 2.0, turns_side_by_side = 3.0 * M_PI;
@@ -58,11 +71,16 @@ std::optional<Started> thick_coil(const scene::Scene& scene, bool half, const st
     const std::optional<Started> flat = followed_coil(thin, true, true, in, failure);
     return flat ? thicken(*flat, at, as_half, in, failure) : std::nullopt;
   };
-  if (scene.load.tension <= high || scene.load.angle <= turns_side_by_side)
+  const bool relaxes = may_relax(scene);
+  const bool few_changes = scene.load.tension <= high || scene.load.angle <= turns_side_by_side;
+  if (few_changes)
     if (const auto direct = thickened(scene, half, keys)) return direct;
+  if (relaxes)
+    if (const auto relaxed = relaxed_start(scene, {}, keys, failure)) return on_chain(relaxed, half);
   scene::Scene loose = scene;
   loose.load.tension = loose_tension;
-  const std::optional<Started> from = thickened(loose, true, {"load.tension"});
+  std::optional<Started> from = thickened(loose, true, {"load.tension"});
+  if (!from && relaxes) from = relaxed_start(loose, {}, {"load.tension"}, failure);
   return from ? reach(*from, scene, scene.load.tension, half, keys, failure) : std::nullopt;
 }
 

@@ -10,8 +10,16 @@ namespace windlass::equilibrium {
 
 namespace {
 
+using chain::StrandLine;
+using chain::Strands;
 using chain::Stretch;
 using chain::Topology;
+
+double force_at(const chain::Profile& profile, int joint) {
+  const auto found = std::find_if(profile.contacts.begin(), profile.contacts.end(),
+                                  [&](const chain::Contact& c) { return c.joint == joint; });
+  return found->force;
+}
 
 /// What a line is divided by: p^¼ of the pressure p between the strands, for between touches h apart they are nearer by
 /// ph⁴/192B. At the places of the touches and the line's ends, of its length.
@@ -34,22 +42,17 @@ struct Monitor {
   }
 };
 
-Monitor monitor_of(const chain::Profile& profile, const Topology::Run& run, const Strip& strip) {
+Monitor monitor_of(const chain::Profile& profile, const StrandLine& line, const Strip& strip) {
   constexpr double quarter = 0.25,
                    least = 1e-4;  // of the largest pressure, so that touches are nowhere too far apart
-  const int last = run.first + run.count;
-  const double begin = strip.s[run.first], length = strip.s[last] - begin;
+  const std::vector<int>& touches = line.first;
+  const double begin = strip.s[touches.front()], length = strip.s[touches.back()] - begin;
   Monitor out;
   std::vector<double> pressure;
-  for (int j = run.first + 1; j < last; ++j) {
-    if (strip.on[j].strand == 0) continue;  // an edge
-    int before = j - 1, after = j + 1;
-    while (strip.on[before].strand == 0) --before;
-    while (strip.on[after].strand == 0) ++after;
-    const auto touch = std::find_if(profile.contacts.begin(), profile.contacts.end(),
-                                    [&](const chain::Contact& c) { return c.joint == j; });
-    out.part.push_back((strip.s[j] - begin) / length);
-    pressure.push_back(std::max(touch->force, 0.0) / (0.5 * (strip.s[after] - strip.s[before])));
+  for (std::size_t k = 1; k + 1 < touches.size(); ++k) {
+    const double span = 0.5 * (strip.s[touches[k + 1]] - strip.s[touches[k - 1]]);
+    out.part.push_back((strip.s[touches[k]] - begin) / length);
+    pressure.push_back(std::max(force_at(profile, touches[k]), 0.0) / span);
   }
   const double most = pressure.empty() ? 0.0 : *std::max_element(pressure.begin(), pressure.end());
   for (const double p : pressure) out.value.push_back(most > 0.0 ? std::pow(p + least * most, 0.25) : 1.0);
@@ -74,138 +77,147 @@ std::vector<double> divided(const Monitor& monitor, int links, bool own_image) {
   return out;
 }
 
-/// The line that a link belongs to, of so many links, its edges on obstacles left where they are.
-Successor laid_anew(const Topology& topology, Strip strip, int link, const Monitor& monitor, int links) {
-  const Topology::Run runs[] = {topology.run(link), topology.run_facing(link)};
-  const bool own_image = runs[0].first == runs[1].first;
-  const bool mirrored = topology.facing(link)->image;
+/// Cuts a line where it is, with a touch of this mark on the strand that is there.
+void add_touch(Strip& strip, double at, int strand, double part, int line) {
+  const int i = strip.part_at(at);
+  strip.cut(i, at, {0, strand, part, line});
+}
+
+/// The line with so many links, what is no touch of it left where it is.
+Successor laid_anew(const StrandLine& line, Strip strip, const Monitor& monitor, int links) {
+  const bool own_image = line.own_image();
   const std::vector<double> parts = divided(monitor, links, own_image);
-  const int fresh = new_strand(strip), line = strip.on[runs[0].first].line;
-  const auto lay = [&](const Topology::Run& run, bool image) {  // an image runs the other way
-    const double begin = strip.s[run.first], length = strip.s[run.first + run.count] - begin;
-    for (int j = run.first + run.count - 1; j > run.first; --j)
-      if (strip.on[j].strand != 0)
-        strip.merge(j - 1, j, joined(strip.parts[j - 1].kind, strip.parts[j].kind));
+  const int fresh = new_strand(strip);
+  const auto lay = [&](std::vector<int> touches, bool of_second) {
+    const bool reversed = of_second && line.image;  // an image runs the other way
+    if (reversed) std::reverse(touches.begin(), touches.end());
+    const double begin = strip.s[touches.front()], length = strip.s[touches.back()] - begin;
+    const int mark = strip.on[touches.front()].line;
+    for (std::size_t k = touches.size() - 1; k-- > 1;) {
+      const int j = touches[k];
+      strip.merge(j - 1, j, joined(strip.parts[j - 1].kind, strip.parts[j].kind));
+    }
     for (int k = links - 1; k > 0; --k) {
-      const int number = own_image ? std::min(k, links - k) : image ? links - k : k;
-      const bool second = own_image ? 2 * k > links : image;
-      const double part = image ? 1.0 - parts[links - 1 - k] : parts[k - 1], at = begin + length * part;
-      const int i = strip.part_at(at), strand = fresh + number;
-      const Stretch kind = strip.parts[i].kind;
-      const int obstacle = kind == Stretch::line ? strip.on[i].obstacle : 0;
-      strip.split(i, at, kind, kind, chain::Seat{obstacle, second ? -strand : strand, part, line});
+      const int number = own_image ? std::min(k, links - k) : reversed ? links - k : k;
+      const bool image = own_image ? 2 * k > links : reversed;
+      const double part = reversed ? 1.0 - parts[links - 1 - k] : parts[k - 1];
+      add_touch(strip, begin + length * part, image ? -(fresh + number) : fresh + number, part, mark);
     }
   };
-  const int late = runs[0].first < runs[1].first ? 1 : 0;  // what is cut first must not move what follows
-  lay(runs[late], !own_image && mirrored && late == 1);
-  if (!own_image) lay(runs[1 - late], mirrored && late == 0);
+  // What is cut first must not move what follows.
+  if (own_image) {
+    lay(line.first, false);
+  } else if (line.first.front() < line.second.front()) {
+    lay(line.second, true);
+    lay(line.first, false);
+  } else {
+    lay(line.first, false);
+    lay(line.second, true);
+  }
   return strip.successor();
 }
 
-/// Touches of a line in a topology: joints of the run, its ends too.
-std::vector<int> touches_of(const Topology::Run& run, const Strip& strip) {
-  std::vector<int> out;
-  for (int j = run.first; j <= run.first + run.count; ++j)
-    if (strip.on[j].strand != 0) out.push_back(j);
-  return out;
+/// Marks touches, those of one strand and those of the other, as of one line; 0: of none.
+void mark_line(Strip& strip, const std::vector<int>& first, const std::vector<int>& second, bool own_image,
+               int line) {
+  for (const int j : first) strip.on[j].line = line;
+  if (!own_image)
+    for (const int j : second) strip.on[j].line = -line;
+}
+
+/// Touches on both sides of what faces each other, of one line now: what ended a line is inside one. @returns its number
+int unite(const Strands::Facing& here, Strip& strip) {
+  const bool own_image = here.begin == here.other_begin;
+  const int line = new_strand(strip);
+  std::vector<int> first = {here.begin, here.end}, second = {here.other_begin, here.other_end};
+  const auto gather = [&](std::vector<int>& side) {
+    for (const int end : std::vector<int>(side)) {
+      const int old = strip.on[end].line;
+      if (old == 0) continue;
+      strip.on[end].part = 0.5;
+      for (int j = 0; j < static_cast<int>(strip.on.size()); ++j)
+        if (strip.on[j].line == old) side.push_back(j);
+    }
+  };
+  gather(first);
+  gather(second);
+  mark_line(strip, first, second, own_image, line);
+  return line;
+}
+
+/// A touch at two places that face each other, of a line.
+void add_pair(Strip& strip, double s, double other, bool mirrored, bool own_strand, int strand, int line) {
+  constexpr double same = 1e-6;
+  add_touch(strip, s, strand, 0.5, line);
+  if (mirrored && own_strand && std::abs(s - other) < same) return;  // its own image
+  add_touch(strip, other, mirrored ? -strand : strand, 0.5, own_strand ? line : -line);
 }
 
 }  // namespace
 
 void measure_parts(Strip& strip) {
-  const auto inside = [&](int joint) { return strip.on[joint].strand == 0 || strip.on[joint].part > 0.0; };
-  const int last = static_cast<int>(strip.s.size()) - 1;
-  for (int j = 1; j < last; ++j) {
+  const int count = static_cast<int>(strip.s.size());
+  for (int j = 0; j < count; ++j) {
     if (strip.on[j].part == 0.0) continue;
     int begin = j, end = j;
-    while (begin > 0 && inside(begin)) --begin;
-    while (end < last && inside(end)) ++end;
+    if (const int line = strip.on[j].line; line != 0) {
+      for (int k = 0; k < count; ++k)
+        if (strip.on[k].line == line) begin = std::min(begin, k), end = std::max(end, k);
+    } else {
+      while (begin > 0 && strip.on[begin].part > 0.0) --begin;
+      while (end + 1 < count && strip.on[end].part > 0.0) ++end;
+    }
     strip.on[j].part = (strip.s[j] - strip.s[begin]) / (strip.s[end] - strip.s[begin]);
   }
 }
 
 std::optional<Successor> line_with_next(int joint, const chain::Profile& profile, const Topology& topology,
                                         Strip strip) {
+  const Strands strands(topology);
   const auto overlaps = [&](int end) {
     return std::any_of(profile.contacts.begin(), profile.contacts.end(), [&](const chain::Contact& c) {
       return c.joint == end && c.coupling >= 0 && c.gap_curvature < 0.0;
     });
   };
-  for (const int link : {joint - 1, joint}) {
-    const auto faced = link < 0 ? std::nullopt : topology.facing(link);
-    if (!faced) continue;
-    const Topology::Interval here = *topology.between_touches(link);
-    if (!overlaps(here.begin) || !overlaps(here.end)) continue;
-    const int line = new_strand(strip);
-    for (const int end : {here.begin, here.end, faced->interval.begin, faced->interval.end})
-      strip.on[end].line = line;
-    return strip.successor();
-  }
+  for (const int link : {joint - 1, joint})
+    for (const Strands::Facing& f : strands.facing(std::max(link, 0))) {
+      if (f.line >= 0 || !overlaps(f.begin) || !overlaps(f.end)) continue;
+      mark_line(strip, {f.begin, f.end}, {f.other_begin, f.other_end}, f.begin == f.other_begin,
+                new_strand(strip));
+      return strip.successor();
+    }
   return std::nullopt;
 }
 
-namespace {
-
-/// Touches that are of one line now: what ends a line among them is inside one. @returns its number
-int unite_lines(const std::vector<int>& touches, Strip& strip) {
-  const int line = new_strand(strip);
-  std::vector<int> old;
-  for (const int joint : touches) {
-    chain::Seat& seat = strip.on[joint];
-    if (seat.line != 0 && seat.line != line) old.push_back(seat.line), seat.part = 0.5;
-    if (seat.line == 0) seat.line = line;
-  }
-  for (chain::Seat& seat : strip.on)
-    if (std::find(old.begin(), old.end(), seat.line) != old.end()) seat.line = line;
-  return line;
+bool next_to_line(const ContactEvent& event, const Topology& topology) {
+  const Strands strands(topology);
+  const Strands::Facing* f = strands.facing(event.place, event.other, event.mirrored);
+  return f && (strands.line_of(f->begin) >= 0 || strands.line_of(f->end) >= 0);
 }
 
-}  // namespace
-
 std::optional<Successor> line_closes(const ContactEvent& event, const Topology& topology, Strip strip) {
-  if (!topology.faces(event.place, event.other, event.mirrored)) return std::nullopt;
-  const Topology::Interval here = *topology.between_touches(event.place),
-                           there = topology.facing(event.place)->interval;
-  const int line = unite_lines({here.begin, here.end, there.begin, there.end}, strip);
-  const auto touch = [&](double at, int mark) {
-    const int i = strip.part_at(at);
-    strip.cut(i, at, {0, mark, 0.5, line});
-  };
-  constexpr double same = 1e-6;
-  const bool own_image =
-      event.mirrored && event.place == event.other && std::abs(event.s - event.s_other) < same;
-  touch(event.s, line);
-  if (!own_image) touch(event.s_other, event.mirrored ? -line : line);
+  const Strands strands(topology);
+  const Strands::Facing* f = strands.facing(event.place, event.other, event.mirrored);
+  if (!f) return std::nullopt;
+  const int line = unite(*f, strip);
+  add_pair(strip, event.s, event.s_other, event.mirrored, f->begin == f->other_begin, line, line);
   measure_parts(strip);
   return strip.successor();
 }
 
 std::optional<Successor> line_filled(const ContactEvent& event, const chain::Profile& profile,
                                      const Topology& topology, Strip strip) {
-  if (!topology.along(event.place)) return std::nullopt;
+  const Strands strands(topology);
+  const Strands::Facing* here = strands.facing(event.place, event.other, event.mirrored);
+  if (!here || here->line < 0) return std::nullopt;
   constexpr double soon = 0.125;  // of what is carried: these would follow
-  const Topology::Run run = topology.run(event.place), facing = topology.run_facing(event.place);
-  const auto inside = [](const Topology::Run& r, int link) {
-    return link >= r.first && link < r.first + r.count;
-  };
-  const int line = strip.on[run.first].line;
   int strand = new_strand(strip);
   for (const chain::Approach& near : chain::approaches(profile, topology)) {
-    if (!(inside(run, near.link) || inside(facing, near.link)) ||
-        !topology.faces(near.link, near.other, near.mirrored))
-      continue;
+    const Strands::Facing* f = strands.facing(near.link, near.other, near.mirrored);
+    if (!f || f->line != here->line) continue;
     if (near.distance - 2.0 * profile.radius > -soon * carried_between_strands) continue;
-    const auto cut = [&](double at, int mark) {
-      const int i = strip.part_at(at);
-      const Stretch kind = strip.parts[i].kind;
-      strip.split(i, at, kind, kind,
-                  chain::Seat{kind == Stretch::line ? strip.on[i].obstacle : 0, mark, 0.5, line});
-    };
-    constexpr double same = 1e-6;
-    const bool own_image = near.mirrored && near.link == near.other && std::abs(near.s - near.s_other) < same;
-    cut(near.s, strand);
-    if (!own_image) cut(near.s_other, near.mirrored ? -strand : strand);
-    ++strand;
+    add_pair(strip, near.s, near.s_other, near.mirrored, strands.lines()[f->line].own_image(), strand++,
+             topology.seat(f->begin).line);
   }
   measure_parts(strip);
   return strip.successor();
@@ -214,65 +226,71 @@ std::optional<Successor> line_filled(const ContactEvent& event, const chain::Pro
 namespace {
 
 /// Does a line end without a force of its own, next to another touch of the two strands? Then hardly anything parts it from that.
-/// @returns the link between, −1: none
-int soft_end(const chain::Profile& profile, const Topology& topology, int link) {
-  const auto force = [&](int joint) {
-    return std::find_if(profile.contacts.begin(), profile.contacts.end(),
-                        [&](const chain::Contact& c) { return c.joint == joint; })
-        ->force;
+/// @returns what is between; nullptr: it does not
+const Strands::Facing* soft_end(const chain::Profile& profile, const Strands& strands, int line) {
+  const std::vector<int>& touches = strands.lines()[line].first;
+  if (touches.size() < 3) return nullptr;
+  const auto beyond = [&](int end, int next, int link) -> const Strands::Facing* {
+    if (force_at(profile, end) > 2.0 * force_at(profile, next)) return nullptr;
+    for (const Strands::Facing& f : strands.facing(link))
+      if (f.line < 0 && (f.begin == end || f.end == end)) return &f;
+    return nullptr;
   };
-  for (const Topology::Run& run : {topology.run(link), topology.run_facing(link)}) {
-    const int last = run.first + run.count;
-    const Topology::Interval first_links = *topology.between_touches(run.first),
-                             last_links = *topology.between_touches(last - 1);
-    if (first_links == last_links) continue;  // nothing inside to compare with
-    if (run.first > 0 && topology.facing(run.first - 1) && force(run.first) < 2.0 * force(first_links.end))
-      return run.first - 1;
-    if (last < static_cast<int>(topology.stretches.size()) && topology.facing(last) &&
-        force(last) < 2.0 * force(last_links.begin))
-      return last;
-  }
-  return -1;
+  const std::size_t last = touches.size() - 1;
+  if (touches.front() > 0)
+    if (const Strands::Facing* f = beyond(touches.front(), touches[1], touches.front() - 1)) return f;
+  return beyond(touches.back(), touches[last - 1], touches.back());
+}
+
+Successor with_more_touches(const chain::Profile& profile, const StrandLine& line, const Strip& strip) {
+  constexpr int few = 4;  // tell little of the pressure
+  const Monitor monitor = monitor_of(profile, line, strip);
+  const int links = line.links();
+  const int enough = links < few ? 2 * links : static_cast<int>(std::ceil(monitor.links));
+  return laid_anew(line, strip, monitor, std::max(enough, links + 1));
 }
 
 }  // namespace
 
-std::optional<Successor> line_goes_on(int link, const chain::Profile& profile, const Topology& topology,
-                                      const Strip& strip) {
-  const int gap = soft_end(profile, topology, link);
-  if (gap < 0) return std::nullopt;
+std::optional<Successor> line_goes_on(const ContactEvent& event, const chain::Profile& profile,
+                                      const Topology& topology, const Strip& strip) {
+  const Strands strands(topology);
+  const Strands::Facing* here = strands.facing(event.place, event.other, event.mirrored);
+  const Strands::Facing* gap = here && here->line >= 0 ? soft_end(profile, strands, here->line) : nullptr;
+  if (!gap) return std::nullopt;
   Strip united = strip;
-  const Topology::Interval here = *topology.between_touches(gap), there = topology.facing(gap)->interval;
-  unite_lines({here.begin, here.end, there.begin, there.end}, united);
+  unite(*gap, united);
   measure_parts(united);
-  const Successor marked = united.successor();
-  return line_with_more_touches(profile, marked.topology, link, united);
+  const Strands marked(united.successor().topology);
+  if (marked.line_of(gap->begin) < 0) return std::nullopt;
+  return with_more_touches(profile, marked.lines()[marked.line_of(gap->begin)], united);
 }
 
 std::optional<Successor> line_opens(int joint, const Topology& topology, Strip strip) {
-  const int line = strip.on[joint].line, other = partner(strip, joint), fresh = new_strand(strip);
-  if (line == 0) return std::nullopt;
-  const Topology::Run before = topology.run(joint - 1), run = before.count > 0 ? before : topology.run(joint);
-  const bool own_image = other >= run.first && other <= run.first + run.count;
-  const int from = own_image ? std::min(joint, other) : joint,
-            to = own_image ? std::max(joint, other) : joint;
+  const Strands strands(topology);
+  const int which = strands.line_of(joint);
+  if (which < 0 || strip.on[joint].line == 0) return std::nullopt;
+  const StrandLine& line = strands.lines()[which];
+  const bool own_image = line.own_image();
+  const int last = line.links(), other = strands.partner(joint);
+  int at = 0;
+  while (line.first[at] != joint && line.second[at] != joint) ++at;
+  const int from = own_image ? std::min(at, last - at) : at, to = own_image ? last - from : at;
+  const int old = std::abs(strip.on[joint].line), fresh = new_strand(strip);
   // What is left on either side; of a line between a strand and its image that is the same on both, and another in the middle.
-  std::vector<int> low, high, middle;
-  for (const int j : touches_of(run, strip)) {
-    if (j < from) low.push_back(j);
-    if (j > to) high.push_back(j);
-    if (j > from && j < to) middle.push_back(j);
-  }
-  const auto mark = [&](const std::vector<int>& side, int number) {
-    for (const int j : side)
-      for (chain::Seat* seat : {&strip.on[j], &strip.on[partner(strip, j)]}) {
-        seat->line = side.size() > 1 ? number : 0;
-        if (j == side.front() || j == side.back()) seat->part = 0.0;
+  const auto mark = [&](int begin, int end, int number, bool whole) {
+    const bool alone = end - begin < 1 && whole;
+    for (int k = std::max(begin, 0); k <= end; ++k)
+      for (const bool second : {false, true}) {
+        if (second && own_image) continue;
+        chain::Seat& seat = strip.on[second ? line.second[k] : line.first[k]];
+        seat.line = alone ? 0 : second ? -number : number;
+        if (k == begin || k == end) seat.part = 0.0;
       }
   };
-  mark(low, line);
-  mark(high, own_image ? line : fresh);
-  mark(middle, fresh);
+  mark(0, from - 1, old, !own_image || from == 1);
+  mark(to + 1, last, own_image ? old : fresh, !own_image || from == 1);
+  if (own_image) mark(from + 1, to - 1, fresh, true);
   for (const int j : {std::max(joint, other), std::min(joint, other)}) {
     strip.merge(j - 1, j, joined(strip.parts[j - 1].kind, strip.parts[j].kind));
     if (joint == other) break;
@@ -283,21 +301,22 @@ std::optional<Successor> line_opens(int joint, const Topology& topology, Strip s
 
 std::optional<Successor> line_with_fewer_touches(const chain::Profile& profile, const Topology& topology,
                                                  int link, const Strip& strip) {
-  const int links = static_cast<int>(touches_of(topology.run(link), strip).size()) - 1;
-  if (links < 2) return std::nullopt;
-  const Monitor monitor = monitor_of(profile, topology.run(link), strip);
-  return laid_anew(topology, strip, link, monitor,
-                   std::clamp(static_cast<int>(std::ceil(monitor.links)), 1, links - 1));
+  const Strands strands(topology);
+  const int which = strands.line_of(link);
+  if (which < 0 || which != strands.line_of(link + 1)) return std::nullopt;
+  const StrandLine& line = strands.lines()[which];
+  if (line.links() < 2) return std::nullopt;
+  const Monitor monitor = monitor_of(profile, line, strip);
+  return laid_anew(line, strip, monitor,
+                   std::clamp(static_cast<int>(std::ceil(monitor.links)), 1, line.links() - 1));
 }
 
-std::optional<Successor> line_with_more_touches(const chain::Profile& profile, const Topology& topology,
-                                                int link, const Strip& strip) {
-  const int links = static_cast<int>(touches_of(topology.run(link), strip).size()) - 1;
-  if (links == 0) return std::nullopt;
-  constexpr int few = 4;  // tell little of the pressure
-  const Monitor monitor = monitor_of(profile, topology.run(link), strip);
-  const int enough = links < few ? 2 * links : static_cast<int>(std::ceil(monitor.links));
-  return laid_anew(topology, strip, link, monitor, std::max(enough, links + 1));
+std::optional<Successor> line_with_more_touches(const ContactEvent& event, const chain::Profile& profile,
+                                                const Topology& topology, const Strip& strip) {
+  const Strands strands(topology);
+  const Strands::Facing* here = strands.facing(event.place, event.other, event.mirrored);
+  if (!here || here->line < 0) return std::nullopt;
+  return with_more_touches(profile, strands.lines()[here->line], strip);
 }
 
 }  // namespace windlass::equilibrium

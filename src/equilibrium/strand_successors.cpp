@@ -54,8 +54,9 @@ void unite_marks(int joint, Strip& strip) {
     first.line = 0;
     return;
   }
-  for (chain::Seat& seat : strip.on)
-    if (seat.line == high && low != 0 && high != 0) seat.line = low;
+  if (low != 0 && high != 0)
+    for (chain::Seat& seat : strip.on)
+      if (std::abs(seat.line) == std::abs(high)) seat.line = seat.line == high ? low : -low;
   first.line = low != 0 ? low : high;
   first.part = low != 0 && high != 0 ? 0.5 : 0.0;
 }
@@ -92,7 +93,8 @@ int partner(const Strip& strip, int j) {
 
 int new_strand(const Strip& strip) {
   int most = 0;
-  for (const chain::Seat& seat : strip.on) most = std::max(most, std::abs(seat.strand));
+  for (const chain::Seat& seat : strip.on)
+    most = std::max({most, std::abs(seat.strand), std::abs(seat.line)});
   return most + 1;
 }
 
@@ -145,11 +147,11 @@ std::vector<Successor> strands_split(const ContactEvent& event, const Strip& str
     for (const double part : {0.05, 0.02, 0.1}) {
       const double length = part * profile.unit_length;
       Strip split = strip;
-      const auto widen = [&](int joint, int before, int after) {
+      const auto widen = [&](int joint, int before, int after, int mark) {
         const bool on_line = split.is_line(joint - 1) && split.is_line(joint);
         split.split(joint, strip.s[joint] + 0.5 * length, on_line ? Stretch::line : Stretch::gap,
                     split.parts[joint].kind);
-        split.on[joint].line = line;
+        split.on[joint].line = mark;
         split.on[joint + 1] = split.on[joint];
         split.s[joint] -= 0.5 * length;
         split.on[joint].strand = before;
@@ -157,7 +159,7 @@ std::vector<Successor> strands_split(const ContactEvent& event, const Strip& str
         split.parts[joint].fresh = true;
       };
       if (j == other) {
-        widen(j, old, -old);
+        widen(j, old, -old, line);
         out.push_back(split.successor());
         continue;
       }
@@ -168,12 +170,20 @@ std::vector<Successor> strands_split(const ContactEvent& event, const Strip& str
         const int first = std::abs(strip.on[low].strand);
         // Images run the other way.
         const bool crossed = opposite == (sign > 0);
-        widen(high, sign * (crossed ? fresh : first), sign * (crossed ? first : fresh));
-        widen(low, first, fresh);
+        widen(high, sign * (crossed ? fresh : first), sign * (crossed ? first : fresh), -line);
+        widen(low, first, fresh, line);
         out.push_back(split.successor());
       }
     }
   return out;
+}
+
+int image_line(const Successor& next, int joint) {
+  const int line = next.topology.seat(joint).line, count = static_cast<int>(next.s.size());
+  if (line == 0) return 0;
+  for (int j = 0; j < count; ++j)
+    if (next.topology.seat(j).line == -line && next.s[j] * next.s[joint] < 0.0) return -line;
+  return line > 0 ? line + count : line - count;  // both strands on this side: a line of its own
 }
 
 int image_strand(const Successor& next, int joint) {

@@ -18,6 +18,9 @@ int new_strand(const Strip& strip);
 std::optional<Successor> line_with_next(int joint, const chain::Profile& profile,
                                         const chain::Topology& topology, Strip strip);
 
+/// Do two strands come near each other next to a line of theirs?
+bool next_to_line(const ContactEvent& event, const chain::Topology& topology);
+
 /// Two strands that meet between two touches of theirs, or ends of lines, all of which are of one line now. nullopt: elsewhere.
 std::optional<Successor> line_closes(const ContactEvent& event, const chain::Topology& topology, Strip strip);
 
@@ -26,7 +29,7 @@ std::optional<Successor> line_filled(const ContactEvent& event, const chain::Pro
                                      const chain::Topology& topology, Strip strip);
 
 /// A line that goes on to the next touch of the two strands: hardly anything parts its end from that. nullopt: it ends where it is.
-std::optional<Successor> line_goes_on(int link, const chain::Profile& profile,
+std::optional<Successor> line_goes_on(const ContactEvent& event, const chain::Profile& profile,
                                       const chain::Topology& topology, const Strip& strip);
 
 /// Measures where touches inside lines between strands are, as parts of these, after their ends have changed.
@@ -39,9 +42,8 @@ std::optional<Successor> line_opens(int joint, const chain::Topology& topology, 
 std::optional<Successor> line_with_fewer_touches(const chain::Profile& profile,
                                                  const chain::Topology& topology, int link,
                                                  const Strip& strip);
-std::optional<Successor> line_with_more_touches(const chain::Profile& profile,
-                                                const chain::Topology& topology, int link,
-                                                const Strip& strip);
+std::optional<Successor> line_with_more_touches(const ContactEvent& event, const chain::Profile& profile,
+                                                const chain::Topology& topology, const Strip& strip);
 
 /// An arc beside such a touch has no length left: two touches meet or pass each other, or one passes the edge of a line.
 /// nullopt: the link is beside none.
@@ -61,6 +63,9 @@ std::vector<Successor> strands_meet(const ContactEvent& event, Strip strip);
 /// grows: of s₁ and s₂ one up and the other down, or both up.
 std::vector<Successor> strands_split(const ContactEvent& event, const Strip& strip,
                                      const chain::Profile& profile);
+
+/// The line (chain::Seat) that the image of a touch is of, as image_strand().
+int image_line(const Successor& next, int joint);
 
 /// The strand that the image of a joint touches, on a chain where the image of every joint is one, too: a joint that touches
 /// the image of y has its own image touch y.

@@ -220,15 +220,14 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
     case Kind::approach:
       if (event.redrawn) {
         std::vector<Successor> out;
-        if (const auto longer = line_goes_on(event.place, profile, topology, strip)) out.push_back(*longer);
-        out.push_back(*line_with_more_touches(profile, topology, event.place, strip));
+        if (const auto longer = line_goes_on(event, profile, topology, strip)) out.push_back(*longer);
+        out.push_back(*line_with_more_touches(event, profile, topology, strip));
         out.push_back(*line_filled(event, profile, topology, strip));
         return out;
       }
       if (const auto closed = line_closes(event, topology, strip)) {
         // Beside a line hardly anything parts it from what comes next; between two touches a third is one by itself at first.
-        const chain::Topology::Interval here = *topology.between_touches(event.place);
-        const bool beside_line = strip.on[here.begin].line != 0 || strip.on[here.end].line != 0;
+        const bool beside_line = next_to_line(event, topology);
         std::vector<Successor> out = strands_meet(event, strip);
         out.insert(beside_line ? out.begin() : out.end(), *closed);
         return out;
@@ -249,6 +248,7 @@ Successor mirrored(const Successor& next, bool right_changed, int links) {
     const int joint = right_changed ? k : count - k;
     chain::Seat out = next.topology.seat(joint);
     if (image) out.strand = image_strand(next, joint);
+    if (image) out.line = image_line(next, joint);
     if (image && out.part > 0.0) out.part = 1.0 - out.part;
     return out;
   };

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cmath>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "windlass/chain/chain.hpp"
 #include "windlass/chain/coupling.hpp"
+#include "windlass/chain/strands.hpp"
 #include "windlass/obstacle/cylinder.hpp"
 #include "windlass/rod/line_contact.hpp"
 
@@ -24,7 +24,8 @@ struct Seat {
   int strand = 0;
   /// Inside a line between strands: where between its ends this touch is (chain/coupling.hpp).
   double part = 0.0;
-  /// Touches next to each other with the same number stand for a line between strands; 0: not one, unless both lie on obstacles.
+  /// Touches with the same number stand for a line between strands, the second strand's with the opposite one; 0: no line, unless
+  /// both strands lie on obstacles between touches that are next to each other.
   int line = 0;
   bool operator==(const Seat& other) const = default;
 };
@@ -47,45 +48,11 @@ struct Topology {
   std::vector<Coupling> couplings() const;
   /// Does a link begin or end where strands touch?
   bool beside_strand(int link) const { return seat(link).strand != 0 || seat(link + 1).strand != 0; }
-  /// The other joint of a touch between strands; the joint itself where it touches its own image; −1: it touches no strand.
-  int partner(int joint) const;
-  /// The touches between strands that a link lies between, next to each other along the rod: joints. What touches an obstacle
-  /// between them, or a line's edge, does not count. nullopt: there are no two.
-  struct Interval {
-    int begin = 0, end = 0;
-    bool operator==(const Interval& other) const = default;
-  };
-  std::optional<Interval> between_touches(int link) const;
-  /// The part of the rod between the same two touches, on the other strand; it may be its own image.
-  struct Facing {
-    Interval interval;
-    bool image = false;  ///< of the half-turn: it runs the other way
-  };
-  std::optional<Facing> facing(int link) const;
-  bool faces(int link, int other, bool image) const;
-  /// Do the two strands touch all along this link and what faces it? Both lie on an obstacle, or the touches that they are between
-  /// stand for a line (Seat::line).
-  bool along(int link) const { return run(link).count > 0; }
-  /// Of two strands that touch all along, are both on an obstacle, without an edge between touches?
-  bool along_on_obstacle(int link) const;
-  /// The links of the line between strands that a link belongs to, none where it is in none.
-  struct Run {
-    int first = 0, count = 0;
-  };
-  Run run(int link) const;
-  /// Those that face it.
-  Run run_facing(int link) const;
   /// Whole rod, e.g. "tail touch gap line gap touch tail"; a contact on the second obstacle reads "touch:2", one with
   /// another strand "cross".
   std::string text() const;
   bool contact() const;
   bool operator==(const Topology& other) const;
-
- private:
-  std::optional<Facing> facing(const Interval& interval) const;
-  /// Is this what is between two touches of a line?
-  bool in_line(const Interval& interval) const;
-  bool lies_on_obstacle(const Interval& interval) const;
 };
 
 /// The whole rod of a half chain.

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+/// Which strands of a topology touch which, found once: touches that are next to each other, and the lines they make up.
+namespace windlass::chain {
+
+struct Topology;
+
+/// A line between two strands, or a strand and its own image: touches, as joints.
+struct StrandLine {
+  std::vector<int> first;  ///< along one strand
+  std::vector<int>
+      second;  ///< second[i] touches first[i]; of a strand and its own image the same joints, in reverse
+  bool image = false;         ///< of the half-turn, which runs the other way
+  bool on_obstacles = false;  ///< every link of both strands lies on an obstacle
+  bool own_image() const { return first.front() == second.back(); }
+  int links() const { return static_cast<int>(first.size()) - 1; }
+};
+
+class Strands {
+ public:
+  explicit Strands(const Topology& topology);
+
+  /// The other joint of a touch between strands; the joint itself where it touches its own image; −1: it touches no strand.
+  int partner(int joint) const { return partner_[joint]; }
+  const std::vector<StrandLine>& lines() const { return lines_; }
+  /// Place among the lines of that which a joint is a touch of; −1: none.
+  int line_of(int joint) const { return line_of_[joint]; }
+  /// Is a joint a touch inside a line, not at its end?
+  bool inside_line(int joint) const;
+  /// The touches before and after one that is inside a line, along its strand.
+  std::array<int, 2> neighbours(int joint) const;
+
+  /// Two stretches of rod, [begin, end] and [other_begin, other_end] as joints, that face each other between the same two touches:
+  /// of a line, or else next to each other on either strand. It may be its own image.
+  struct Facing {
+    int begin, end, other_begin, other_end;
+    bool image;
+    int line;  ///< place among the lines; −1: of none
+  };
+  /// All that a link belongs to.
+  const std::vector<Facing>& facing(int link) const { return facing_[link]; }
+  /// The one with a link of the other strand; nullptr: there is none.
+  const Facing* facing(int link, int other, bool image) const;
+  /// Does another strand touch a link all along?
+  bool along(int link) const;
+  /// The line that does, −1: none.
+  int line_along(int link) const;
+
+ private:
+  void find_lines(const Topology& topology);
+  void find_lines_on_obstacles(const Topology& topology, const std::vector<int>& touches);
+  void add(const Facing& facing);
+  void face(const std::vector<int>& touches);
+
+  std::vector<int> partner_, line_of_;
+  std::vector<bool> mirrored_;
+  std::vector<StrandLine> lines_;
+  std::vector<std::vector<Facing>> facing_;
+};
+
+}  // namespace windlass::chain
