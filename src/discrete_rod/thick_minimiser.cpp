@@ -107,6 +107,8 @@ void ThickRod::validate() const {
     throw std::invalid_argument("thick rod: half_length must exceed half the capstan angle by 1.5");
 }
 
+double ThickRod::length_of_knot() const { return 0.5 * angle + 1.0 + 3.0 / std::sqrt(tension); }
+
 SplineRod ThickRod::spline(double h) const {
   return {half_length, fine_length > 0.0 ? fine_length : 0.5 * angle + fine_beyond, h};
 }
@@ -119,7 +121,7 @@ ThickMinimum minimise(const ThickRod& rod, double h, const ThickMinimum* start) 
   ThickMinimum minimum;
   minimum.h = h;
   minimum.unknowns = static_cast<int>(spline.size());
-  minimum.x = start                ? resampled(rod.spline(start->h), start->x, spline)
+  minimum.x = start               ? resampled(rod.spline(start->h), start->x, spline)
               : rod.curve.empty() ? helix(rod, spline)
                                   : along(rod.curve, spline);
   if (!stiffen(energy, rod, h, !start, minimum) || !settle(energy, rod.radius, minimum)) return minimum;

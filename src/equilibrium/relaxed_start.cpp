@@ -104,9 +104,8 @@ std::optional<Started> relaxed_start(const scene::Scene& scene, const std::vecto
                                      const std::vector<std::string>& keys, std::string& failure) {
   const contact::Loads loads = loads_of(scene);
   discrete_rod::ThickRod thick{loads.tension, loads.angle, loads.half_length, loads.radius, curve};
-  constexpr double beyond = 3.0;
   const double mesh = std::clamp(0.25 * loads.radius, 0.03, 0.1);
-  thick.fine_length = std::min(0.5 * loads.angle + beyond, 0.9 * loads.half_length);
+  thick.fine_length = std::min(thick.length_of_knot(), 0.9 * loads.half_length);
   const discrete_rod::ThickMinimum minimum = discrete_rod::minimise(thick, mesh);
   if (!minimum.converged) return failure = "the discrete rod did not come to rest", std::nullopt;
   const ThickContacts contacts = contacts_of(thick, minimum);

@@ -88,11 +88,11 @@ std::optional<Started> thick_coil(const scene::Scene& scene, bool half, const st
 std::optional<Started> knot_start(const scene::Scene& scene, bool half, const std::vector<std::string>& keys,
                                   std::string& failure) {
   constexpr double loose = 0.3, tight = 2.0;
+  const knot::Curve curve = knot::start_curve(scene);
   for (const double tension : {std::clamp(scene.load.tension, loose, tight), 1.0, 1.5, 0.6}) {
     scene::Scene at = scene;
     at.load.tension = tension;
-    const std::optional<Started> from =
-        relaxed_start(at, knot::clove_hitch(scene.rod_radius), {"load.tension"}, failure);
+    const std::optional<Started> from = relaxed_start(at, curve, {"load.tension"}, failure);
     if (from) return reach(*from, scene, scene.load.tension, half, keys, failure);
   }
   return std::nullopt;

@@ -20,7 +20,7 @@ Curve clove_hitch(double radius) {
   // off the middle plane, each a little more than strands need.
   const double over = 2.7 * radius, turn = 3.2 * radius, tail = 1.05 * radius;
   constexpr double across = 0.9, down_from = 0.3, down_to = 1.6;  // angles of the middle strand [rad]
-  constexpr double aside = 4.6, whole = 2.0 * M_PI;               // from where the turn comes back to the tails
+  constexpr double aside = 4.6, whole = 2.0 * M_PI;  // from where the turn comes back to the tails
   constexpr int corners = 800;
   Curve curve;
   for (int k = 0; k <= corners; ++k) {

@@ -7,6 +7,7 @@
 #include "processor_clock.hpp"
 #include "windlass/discrete_rod/thick_minimiser.hpp"
 #include "windlass/equilibrium/start.hpp"
+#include "windlass/knot/start_curve.hpp"
 #include "windlass/scene/units.hpp"
 
 namespace windlass::precision {
@@ -21,6 +22,10 @@ discrete_rod::ThickRod thick_rod(const scene::Scene& scene) {
   constexpr double decay_lengths = 20.0;  // of an infinite tail: exp(−20), squared at the contact
   rod.half_length = scene.rod.infinite() ? 0.5 * rod.angle + decay_lengths / std::sqrt(rod.tension) + 2.0
                                          : 0.5 * scene.rod.length;
+  if (scene.knot.tied()) {
+    rod.curve = knot::start_curve(scene);
+    rod.fine_length = std::min(rod.length_of_knot(), 0.9 * rod.half_length);
+  }
   return rod;
 }
 
@@ -72,6 +77,7 @@ bool Opinion::agrees() const {
 }
 
 OpinionStates default_states(const scene::Scene& scene) {
+  if (scene.knot.tied()) return {{0.2, 0.3, 0.5, 0.8, 1.0}, {1.0 / 2.0, 2.0 / 7.0, 1.0 / 6.0}};
   OpinionStates out{{1.0, 1.5, 2.0, 4.0, 8.0}, {1.0 / 2.0, 2.0 / 7.0, 1.0 / 6.0}};
   if (scene.load.angle < 3.0 * M_PI) out.tensions.push_back(12.0);
   return out;

@@ -217,6 +217,11 @@ Scene read_scene(const std::filesystem::path& path, std::span<const std::string>
   if (options.restart)
     std::erase_if(document.entries,
                   [](const Entry& entry) { return of_the_file(entry) && entry.key == "continuation.from"; });
+  // A file that the scene names lies beside it.
+  for (Entry& entry : document.entries)
+    if (auto* text = std::get_if<std::string>(&entry.value);
+        text && entry.key == "knot.curve" && of_the_file(entry))
+      *text = std::filesystem::absolute(path.parent_path() / *text).string();
   return Resolver(document, options).resolve(path.stem().string());
 }
 

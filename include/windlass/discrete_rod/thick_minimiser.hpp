@@ -19,6 +19,8 @@ struct ThickRod {
 
   /// @throws std::invalid_argument naming the bound violated
   void validate() const;
+  /// Half the rod as far as strands of a knot touch: loops are some times sqrt(B/T) wide.
+  double length_of_knot() const;
   /// Its centre line with elements of length h near the coil.
   SplineRod spline(double h) const;
 };

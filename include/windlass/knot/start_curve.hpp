@@ -1,7 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <filesystem>
 #include <vector>
+
+#include "windlass/scene/scene.hpp"
 
 /// Curves that knots start on, before they are relaxed.
 namespace windlass::knot {
@@ -13,5 +16,14 @@ using Curve = std::vector<Eigen::Vector3d>;
 /// tails, each half makes a full turn round the cylinder, passes under the middle strand, and leaves along ±e_x.
 /// @param radius  r of the rod, whose strands clear each other [ρ]
 Curve clove_hitch(double radius);
+
+/// The points x, y, z [ρ] of a whole curve in a CSV file, from end to end; of its half from the mid-point on what is read.
+/// @param radius  of the rod; @param length  of the rod: the curve must not be longer
+/// @throws InputError naming file, line and column, or what is wrong with the curve: too few points, not its own half-turn image,
+///         nearer to itself than 2r, through the cylinder
+Curve read_curve(const std::filesystem::path& path, double radius, double length);
+
+/// The curve of a scene that is tied.
+Curve start_curve(const scene::Scene& scene);
 
 }  // namespace windlass::knot

@@ -1,0 +1,130 @@
+// Knots as a user ties them: from nothing, through changes of contact, certified, half and full, against a discrete rod.
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "support/csv.hpp"
+#include "support/run_program.hpp"
+#include "windlass/discrete_rod/thick_minimiser.hpp"
+#include "windlass/knot/start_curve.hpp"
+
+using namespace windlass::test;
+
+namespace {
+
+std::vector<std::string> tied(const std::string& command, double radius,
+                              const std::vector<std::string>& settings) {
+  std::vector<std::string> out = {command, shipped_scene("clove-hitch"), "--set",
+                                  "rod.radius=" + std::to_string(radius)};
+  for (const std::string& setting : settings) out.insert(out.end(), {"--set", setting});
+  return out;
+}
+
+nlohmann::json solved(double radius, double tension, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> settings = {"load.tension=" + std::to_string(tension)};
+  settings.insert(settings.end(), more.begin(), more.end());
+  std::vector<std::string> command = tied("solve", radius, settings);
+  command.push_back("--json");
+  const TemporaryFolder folder;
+  const Outcome outcome = run_program(command, folder.path());
+  BOOST_REQUIRE(outcome.status == 0);
+  BOOST_TEST(outcome.err == "");
+  return nlohmann::json::parse(outcome.out);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(knots)
+
+BOOST_AUTO_TEST_CASE(clove_hitch_agrees_with_the_discrete_rod) {
+  // Shares no code with the chain but the curve that both start on. Its finest mesh is off by its bed: 1e-3.
+  constexpr double radius = 0.285714;
+  for (const double tension : {0.3, 1.0, 2.0}) {
+    const nlohmann::json state = solved(radius, tension);
+    BOOST_TEST(state["stability"]["index"] == 0);
+    windlass::discrete_rod::ThickRod rod{tension, 4.0 * M_PI, 30.0, radius};
+    rod.curve = windlass::knot::clove_hitch(radius);
+    rod.fine_length = 2.0 * M_PI + 3.0;
+    const auto limit = windlass::discrete_rod::minimise(rod, {0.14, 0.1, 0.07});
+    BOOST_REQUIRE(limit.converged);
+    BOOST_TEST(std::abs(limit.R_tot / state["R_tot"].get<double>() - 1.0) < 1e-3);
+    const double self = state["self_force"].get<double>();
+    BOOST_TEST(std::abs(limit.self_force / self - 1.0) < 1e-2);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(clove_hitch_loosens_through_every_change_of_contact) {
+  for (const double radius : {0.5, 0.285714, 0.166667}) {
+    const TemporaryFolder folder;
+    std::vector<std::string> command =
+        tied("continue", radius, {"continuation.from=1", "continuation.to=0.1"});
+    command.insert(command.end(), {"--out", "run", "--quiet", "--no-eigenvalues"});
+    const Outcome outcome = run_program(command, folder.path());
+    BOOST_TEST(outcome.status == 0, outcome.err);
+    const Outcome certificate = run_program({"verify", "run"}, folder.path());
+    BOOST_TEST(certificate.status == 0, certificate.out);  // that of the virial among them
+    const Table table = read_csv(folder.path() / "run" / "branches.csv");
+    BOOST_TEST(std::stod(table.rows.back().at("T")) == 0.1);
+    for (const auto& row : table.rows) BOOST_TEST(row.at("index") == "0");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(half_and_full_chain_agree) {
+  const double half = solved(0.285714, 1.0)["R_tot"],
+               full = solved(0.285714, 1.0, {"model.symmetry=none"})["R_tot"];
+  BOOST_TEST(std::abs(half - full) < 1e-9 * half);
+}
+
+BOOST_AUTO_TEST_CASE(the_way_there_and_back) {
+  // Upward the middle of the tails comes to touch, then along a line; downward the same events.
+  const TemporaryFolder folder;
+  std::vector<double> events[2];
+  for (const bool up : {false, true}) {
+    std::vector<std::string> command = tied("continue", 0.285714,
+                                            {up ? "continuation.from=1.7" : "continuation.from=2",
+                                             up ? "continuation.to=2" : "continuation.to=1.7"});
+    command.insert(command.end(), {"--out", up ? "up" : "down", "--quiet", "--no-eigenvalues"});
+    BOOST_TEST(run_program(command, folder.path()).status == 0);
+    for (const auto& row : read_csv(folder.path() / (up ? "up" : "down") / "branches.csv").rows)
+      if (row.at("type") == "contact") events[up].push_back(std::stod(row.at("T")));
+    std::sort(events[up].begin(), events[up].end());
+  }
+  BOOST_REQUIRE(events[0].size() == 2U);
+  BOOST_REQUIRE(events[1].size() == 2U);
+  for (int k : {0, 1}) BOOST_TEST(std::abs(events[0][k] - events[1][k]) < 1e-7);
+}
+
+BOOST_AUTO_TEST_CASE(a_curve_of_ones_own) {
+  // The clove hitch's own curve, from a file, is the clove hitch.
+  const TemporaryFolder folder;
+  constexpr double radius = 0.285714;
+  const auto half = windlass::knot::clove_hitch(radius);
+  const auto write = [&](const char* name, double shift) {
+    std::ofstream file(folder.path() / name);
+    file << "x,y,z\n";
+    for (std::size_t k = half.size(); k-- > 1;)
+      file << -half[k](0) << ',' << half[k](1) + shift << ',' << -half[k](2) << '\n';
+    for (const auto& r : half) file << r(0) << ',' << r(1) << ',' << r(2) << '\n';
+  };
+  write("hitch.csv", 0.0);
+  write("askew.csv", 0.3);
+  const auto run = [&](const std::string& file) {
+    return run_program(tied("solve", radius, {"load.tension=1", "knot.kind=none", "knot.curve=" + file}),
+                       folder.path());
+  };
+  const Outcome own = run((folder.path() / "hitch.csv").string());
+  BOOST_TEST(own.status == 0, own.err);
+  BOOST_TEST(own.out.find("R_tot        7.977") != std::string::npos, own.out);
+  const Outcome askew = run((folder.path() / "askew.csv").string());
+  BOOST_TEST(askew.status == 1);
+  BOOST_TEST(askew.err.find("half-turn") != std::string::npos, askew.err);
+  BOOST_TEST(run("missing.csv").status == 1);
+  for (const char* setting : {"load.angle=3 pi", "rod.self_contact=false", "ends.kind=clamped"}) {
+    const Outcome refused = run_program(tied("solve", radius, {setting}), folder.path());
+    BOOST_TEST(refused.status == 1, setting);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
