@@ -70,14 +70,6 @@ bool mend(Entry& at, int most, bool redrawn, int& iterations) {
     const chain::Profile shape = at.problem->profile(at.x, at.p);
     const Topology& topology = at.problem->topology();
     const std::vector<ContactEvent> events = contact_events(shape, topology);
-    if (getenv("DBG")) {
-      fprintf(stderr, "mend %s\n", topology.text().c_str());
-      for (double q : at.problem->joint_places(at.x, at.p, shape)) fprintf(stderr, "%.5f ", q);
-      for (auto& e : events)
-        if (e.value < 1e-6)
-          fprintf(stderr, "\n   %s %.4g at %.5f %.5f", e.name().c_str(), e.value, e.s, e.s_other);
-      fprintf(stderr, "\n");
-    }
     const ContactEvent* violated = most_violated(events, shape.unit_length, redrawn);
     if (!violated) return admissible(events);
     std::vector<Successor> all =

@@ -29,15 +29,15 @@ discrete_rod::ThickRod thick_rod(const scene::Scene& scene) {
   return rod;
 }
 
-void ask_discrete_rod(const scene::Scene& scene, const std::vector<double>& meshes, Opinion& opinion) {
+/// @returns why it found nothing; empty where it did
+std::string ask_discrete_rod(const scene::Scene& scene, const std::vector<double>& meshes, Opinion& opinion) {
   const double begin = processor_seconds();
   const discrete_rod::ThickLimit limit = discrete_rod::minimise(thick_rod(scene), meshes);
   opinion.discrete = {limit.R_tot, limit.self_force, processor_seconds() - begin};
   for (const auto& mesh : limit.meshes)
     opinion.meshes.push_back({mesh.h, mesh.unknowns, mesh.iterations, mesh.R_tot, mesh.self_force});
-  if (!limit.converged)
-    throw std::runtime_error(
-        fmt::format("the discrete rod did not converge with h = {:.3g}", limit.meshes.back().h));
+  if (limit.converged) return {};
+  return fmt::format("the discrete rod did not converge with h = {:.3g}", limit.meshes.back().h);
 }
 
 void ask_chain(const scene::Scene& scene, Opinion& opinion) {
@@ -49,14 +49,10 @@ void ask_chain(const scene::Scene& scene, Opinion& opinion) {
 
 /// Why there is no comparison; empty where there is one. A state that one of them cannot do is a result.
 std::string ask_both(const scene::Scene& scene, const std::vector<double>& meshes, Opinion& opinion) {
-  try {
-    ask_discrete_rod(scene, meshes, opinion);
-  } catch (const std::exception& error) {
-    return error.what();
-  }
+  if (const std::string why = ask_discrete_rod(scene, meshes, opinion); !why.empty()) return why;
   try {
     ask_chain(scene, opinion);
-  } catch (const std::exception& error) {
+  } catch (const equilibrium::NoEquilibrium& error) {
     return fmt::format("{}; the discrete rod alone: R_tot = {:.7g}, self_force = {:.7g}", error.what(),
                        opinion.discrete.R_tot, opinion.discrete.self_force);
   }

@@ -1,0 +1,53 @@
+#include "strand_line_events.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace windlass::equilibrium {
+
+using chain::Contact;
+using chain::Profile;
+
+namespace {
+
+/// Half the distance between the touches on both sides of one inside a line between strands.
+double span_of(const Profile& profile, const chain::Strands& strands, int joint) {
+  const auto [before, after] = strands.neighbours(joint);
+  return 0.5 * (profile.pieces[after].s(0) - profile.pieces[before].s(0));
+}
+
+/// How much nearer strands are between the touches inside a line of theirs, by the pressure p that those stand for: ph⁴/192B.
+double nearer_between(const Profile& profile, const chain::Strands& strands, int line) {
+  double most = 0.0;
+  for (const Contact& c : profile.contacts) {
+    if (c.coupling < 0 || strands.line_of(c.joint) != line || !strands.inside_line(c.joint)) continue;
+    const double h = span_of(profile, strands, c.joint);
+    most = std::max(most, std::abs(c.force) * h * h * h / (192.0 * profile.material.bending_stiffness));
+  }
+  return most;
+}
+
+}  // namespace
+
+int line_of_several(const chain::Strands& strands, int link) {
+  const int line = strands.line_of(link);
+  return line >= 0 && line == strands.line_of(link + 1) && strands.lines()[line].links() > 1 ? line : -1;
+}
+
+ContactEvent spare_touches(const Profile& profile, const chain::Strands& strands, int i, int line) {
+  ContactEvent event{ContactEvent::Kind::length, i, 1.0, profile.pieces[i].s(0)};
+  event.redrawn = true;
+  const chain::StrandLine& all = strands.lines()[line];
+  if (i == all.first.front() || i == std::min(all.second.front(), all.second.back()))
+    event.value =
+        nearer_between(profile, strands, line) / (spare_between_strands * carried_between_strands) - 1.0;
+  return event;
+}
+
+double carried_pull(const Profile& profile, const chain::Strands& strands, int joint) {
+  if (!strands.inside_line(joint)) return 0.0;
+  const double h = span_of(profile, strands, joint);
+  return 12.0 * carried_between_strands * profile.material.bending_stiffness / (h * h * h);
+}
+
+}  // namespace windlass::equilibrium

@@ -1,0 +1,93 @@
+// Which strands touch which: partners, what faces what, lines with edges and other touches between theirs.
+#include "windlass/chain/strands.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include "windlass/chain/topology.hpp"
+
+using windlass::chain::Coupling;
+using windlass::chain::Seat;
+using windlass::chain::Strands;
+using windlass::chain::Stretch;
+using windlass::chain::Topology;
+using windlass::chain::unfolded;
+
+namespace {
+
+/// A rod of free stretches with these seats between them.
+Topology of(const std::vector<Seat>& seats) {
+  Topology out;
+  out.stretches.assign(seats.size(), Stretch::gap);
+  out.stretches.push_back(Stretch::tail);
+  out.on = {Seat{}};
+  out.on.insert(out.on.end(), seats.begin(), seats.end());
+  out.on.push_back({});
+  return out;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(strands)
+
+BOOST_AUTO_TEST_CASE(a_line_with_the_own_image) {
+  // Joints 1 to 3: ends and middle of a line between a tail and its image.
+  const Topology t = of({{0, 1, 0.0, 7}, {0, 2, 0.5, 7}, {0, -1, 0.0, 7}});
+  const Strands s(t);
+  BOOST_TEST(s.partner(1) == 3);
+  BOOST_TEST(s.partner(2) == 2);
+  BOOST_REQUIRE(s.lines().size() == 1U);
+  BOOST_TEST(s.lines()[0].own_image());
+  BOOST_TEST(s.inside_line(2));
+  BOOST_TEST(!s.inside_line(1));
+  BOOST_REQUIRE(s.facing(1, 2, true) != nullptr);  // image of the other half of it
+  BOOST_TEST(s.facing(1, 2, false) == nullptr);
+  BOOST_TEST(s.along(1));
+  BOOST_TEST(!s.along(0));
+  BOOST_TEST(t.text() == "tail cross lines cross gap cross lines cross tail");
+  // On the whole rod it is a line of two strands, and no other.
+  const Strands whole(unfolded(t));
+  BOOST_REQUIRE(whole.lines().size() == 1U);
+  BOOST_TEST(!whole.lines()[0].own_image());
+  BOOST_TEST(!whole.lines()[0].image);
+}
+
+BOOST_AUTO_TEST_CASE(an_edge_and_a_touch_with_another_strand_inside_a_line) {
+  // A strand (1, 2, 3) on another (5, 8, 9): between 5 and 8 there are an edge (6) and a touch (7) with a third strand (4).
+  const Topology t = of({{0, 1, 0.0, 9},
+                         {0, 2, 0.4, 9},
+                         {0, 3, 0.0, 9},
+                         {0, 4},
+                         {0, 1, 0.0, -9},
+                         {},
+                         {0, 4},
+                         {0, 2, 0.4, -9},
+                         {0, 3, 0.0, -9}});
+  const Strands s(t);
+  BOOST_REQUIRE(s.lines().size() == 1U);
+  BOOST_TEST(s.lines()[0].links() == 2);
+  BOOST_TEST(!s.lines()[0].image);
+  for (const int link : {5, 6, 7}) BOOST_TEST((s.facing(link, 1, false) != nullptr), link);
+  BOOST_TEST(s.facing(8, 1, false) == nullptr);
+  BOOST_TEST((s.facing(8, 2, false) != nullptr));
+  BOOST_TEST(s.neighbours(8) == (std::array<int, 2>{5, 9}), boost::test_tools::per_element());
+  const std::vector<Coupling> couplings = t.couplings();
+  BOOST_TEST(couplings[1].begin == 1);
+  BOOST_TEST(couplings[1].end == 3);
+  BOOST_TEST(couplings[1].part == 0.4);
+  BOOST_TEST(couplings[3].begin == -1);
+}
+
+BOOST_AUTO_TEST_CASE(two_touches_next_to_each_other_are_no_line) {
+  const Topology t = of({{0, 1}, {0, 2}, {0, -2}, {0, -1}});
+  const Strands s(t);
+  BOOST_TEST(s.lines().empty());
+  BOOST_REQUIRE((s.facing(1, 3, true) != nullptr));
+  BOOST_TEST(s.facing(1, 3, true)->line == -1);
+  BOOST_TEST(!s.along(1));
+  // On an obstacle they are: strands that lie side by side.
+  Topology lying = t;
+  lying.stretches[1] = lying.stretches[3] = Stretch::line;
+  BOOST_TEST(Strands(lying).along(1));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
