@@ -200,7 +200,12 @@ ContactEvent length_event(const Profile& profile, const Topology& topology, cons
   const bool between_touches =
       gap && std::count_if(profile.contacts.begin(), profile.contacts.end(), is_touch) == 2;
   const double stiffest = profile.material.stiffness.maxCoeff() / profile.material.bending_stiffness;
+  // The two ends of a line between free strands share a force, by the curvature there: as two touches of a gap.
+  const int line = strands.line_along(i);
+  const bool shrinks = line >= 0 && !strands.lines()[line].on_obstacles && line == strands.line_of(i) &&
+                       line == strands.line_of(i + 1);
   const double shortest = piece.stretch == Stretch::tail   ? shortest_tail * stiffest
+                          : shrinks                        ? least_between_touches
                           : topology.beside_strand(i)      ? least_beside_strand
                           : between_touches                ? least_between_touches
                           : piece.stretch == Stretch::line ? least_under(profile, i)

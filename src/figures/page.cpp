@@ -80,7 +80,7 @@ std::filesystem::path write_page(const std::vector<Figure>& figures, const Study
       "and touch themselves, at points. Length in ρ = R + r, force in EI/ρ². “Stable” means against every "
       "perturbation of that "
       "rod in "
-      "space. The clove hitch is not remade, nor are the experimental, FEM "
+      "space. Not remade are the experimental, FEM "
       "and DER points, "
       "for which the paper gives no numbers.</p>\n<ul>\n",
       style, WINDLASS_VERSION, escaped(invocation), seconds);
@@ -99,7 +99,7 @@ std::vector<Figure> draw_all(const Study& study, const Canvas& canvas) {
       write_run_data(name, run, canvas);  // thick rods have files of their own
   std::vector<Figure> figures;
   for (const auto& draw : {contact_force, strength, collapse, pressure, pressure_map, wrapping_angle,
-                           surgical_knot, radius_ratio, contact_set, crossing_map})
+                           surgical_knot, radius_ratio, contact_set, crossing_map, thin_limit, clove_hitch})
     figures.push_back(draw(study, canvas));
   return figures;
 }

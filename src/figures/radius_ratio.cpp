@@ -67,8 +67,7 @@ std::vector<Statement> strength_statements(const Study& study, const std::vector
           {"R/r = 1, 2.5, 5 up to the highest tensions of the experiments", "computed: " + reach(list),
            Verdict::remark,
            "where a curve ends (filled circle) before, the contact of neighbouring turns changes in a way "
-           "that could not be followed: the runs below say how"},
-          {"the same collapse for the clove hitch", "not computed", Verdict::remark, ""}};
+           "that could not be followed: the runs below say how"}};
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "knot_runs.hpp"
 #include "thick_runs.hpp"
 #include "windlass/output/stable_state.hpp"
 
@@ -25,6 +26,7 @@ std::vector<PlannedRun> planned_runs() {
                     false});
   }
   for (PlannedRun& run : thick_runs()) runs.push_back(std::move(run));
+  for (PlannedRun& run : knot_runs()) runs.push_back(std::move(run));
   return runs;
 }
 

@@ -32,7 +32,13 @@ discrete_rod::ThickRod thick_rod(const scene::Scene& scene) {
 /// @returns why it found nothing; empty where it did
 std::string ask_discrete_rod(const scene::Scene& scene, const std::vector<double>& meshes, Opinion& opinion) {
   const double begin = processor_seconds();
-  const discrete_rod::ThickLimit limit = discrete_rod::minimise(thick_rod(scene), meshes);
+  const discrete_rod::ThickRod rod = thick_rod(scene);
+  try {
+    rod.validate();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  const discrete_rod::ThickLimit limit = discrete_rod::minimise(rod, meshes);
   opinion.discrete = {limit.R_tot, limit.self_force, processor_seconds() - begin};
   for (const auto& mesh : limit.meshes)
     opinion.meshes.push_back({mesh.h, mesh.unknowns, mesh.iterations, mesh.R_tot, mesh.self_force});

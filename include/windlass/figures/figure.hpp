@@ -45,6 +45,8 @@ Figure surgical_knot(const Study& study, const Canvas& canvas);   ///< n loops a
 Figure radius_ratio(const Study& study, const Canvas& canvas);  ///< R_tot at 4π, R/r = 1, 2.5, 5
 Figure contact_set(const Study& study, const Canvas& canvas);   ///< wrapping angle and lines at 4π, the same
 Figure crossing_map(const Study& study, const Canvas& canvas);  ///< where strands meet, in (T, R/r)
+Figure thin_limit(const Study& study, const Canvas& canvas);    ///< tilt and R_tot at 2π against r
+Figure clove_hitch(const Study& study, const Canvas& canvas);   ///< R_tot(T), R/r = 1, 2.5, 5
 
 /// All of them. @throws output::OutputError when a file cannot be written or gnuplot fails
 std::vector<Figure> draw_all(const Study& study, const Canvas& canvas);
