@@ -59,8 +59,8 @@ std::optional<Started> on_chain(const std::optional<Started>& found, bool half) 
 }
 
 /// A coil whose rod keeps off itself: the flat one thickened; one of several turns under high tension, where each would go through
-/// a change of contact, relaxed as a discrete rod; or where that fails, thickened at a tension at which its turns lie apart and
-/// still press on each other, then tightened or loosened.
+/// a change of contact, thickened at a tension at which its turns lie apart and still press on each other, then tightened or
+/// loosened; or where neither leads there, relaxed as a discrete rod.
 std::optional<Started> thick_coil(const scene::Scene& scene, bool half, const std::vector<std::string>& keys,
                                   std::string& failure) {
   constexpr double loose_tension = 1.5, high = 2.0, turns_side_by_side = 3.0 * M_PI;
@@ -71,17 +71,17 @@ std::optional<Started> thick_coil(const scene::Scene& scene, bool half, const st
     const std::optional<Started> flat = followed_coil(thin, true, true, in, failure);
     return flat ? thicken(*flat, at, as_half, in, failure) : std::nullopt;
   };
-  const bool relaxes = may_relax(scene);
-  const bool few_changes = scene.load.tension <= high || scene.load.angle <= turns_side_by_side;
-  if (few_changes)
+  if (scene.load.tension <= high || scene.load.angle <= turns_side_by_side)
     if (const auto direct = thickened(scene, half, keys)) return direct;
-  if (relaxes)
-    if (const auto relaxed = relaxed_start(scene, {}, keys, failure)) return on_chain(relaxed, half);
   scene::Scene loose = scene;
   loose.load.tension = loose_tension;
-  std::optional<Started> from = thickened(loose, true, {"load.tension"});
-  if (!from && relaxes) from = relaxed_start(loose, {}, {"load.tension"}, failure);
-  return from ? reach(*from, scene, scene.load.tension, half, keys, failure) : std::nullopt;
+  if (const auto from = thickened(loose, true, {"load.tension"}))
+    if (const auto there = reach(*from, scene, scene.load.tension, half, keys, failure)) return there;
+  if (!may_relax(scene)) return std::nullopt;
+  std::string not_relaxed;
+  const std::optional<Started> relaxed = relaxed_start(scene, {}, keys, not_relaxed);
+  if (!relaxed) failure += "; nor relaxed as a discrete rod: " + not_relaxed;
+  return on_chain(relaxed, half);
 }
 
 /// A knot, relaxed at its tension or one at which its contacts are few, then tightened or loosened.
