@@ -121,6 +121,7 @@ void name_partners(const std::vector<chain::Coupling>& couplings, std::vector<Pl
         return other.joint == joint && other.side == side;
       });
       if (found != contacts.end()) contact.record.partner = 1 + static_cast<int>(found - contacts.begin());
+      contact.record.along_strand = c.along;
     }
 }
 

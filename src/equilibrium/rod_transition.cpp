@@ -239,9 +239,12 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
       return transition;
     }
     const Entry entry = draft(*this, next, shape, p);
-    transition.state = entry.x;
-    transition.problem = entry.problem;
-    if (!first) first = transition;
+    if (!first) {
+      // On the mesh that this guess is of: what follows may remesh its problem, and fail after that.
+      transition.state = entry.x;
+      transition.problem = entry.problem->clone();
+      first = transition;
+    }
     const bool shrinks = event.kind == Kind::length && straight_line(*this, event.place) >= 0;
     std::optional<Entry> found = enter(entry, event, next, shrinks, transition.precision);
     if (!found || (!event.redrawn && found->problem->topology() == topology_))

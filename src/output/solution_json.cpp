@@ -43,7 +43,8 @@ JointKind joint_kind_from_name(const std::string& name) {
 
 namespace {
 
-/// Touches of the rod with itself, each once; "mirror": with its own image under the half-turn.
+/// Touches of the rod with itself, each once; "line": one of those that a line consists of; "mirror": with its own image under the
+/// half-turn.
 ordered_json self_json(const Solution& solution) {
   constexpr double same = 1e-9;
   ordered_json list = ordered_json::array();
@@ -51,7 +52,10 @@ ordered_json self_json(const Solution& solution) {
     const JointRecord& joint = solution.joints[k];
     if (joint.partner <= static_cast<int>(k)) continue;
     const double other = solution.joints.at(static_cast<std::size_t>(joint.partner)).s;
-    list.push_back({{"kind", std::abs(joint.s + other) < same * (1.0 + other) ? "mirror" : "touch"},
+    const bool mirror = std::abs(joint.s + other) < same * (1.0 + other);
+    list.push_back({{"kind", joint.along_strand ? "line"
+                             : mirror           ? "mirror"
+                                                : "touch"},
                     {"s1", finite_or_null(joint.s)},
                     {"s2", finite_or_null(other)},
                     {"force", finite_or_null(joint.strand_force)}});

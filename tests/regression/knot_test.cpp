@@ -71,6 +71,21 @@ BOOST_AUTO_TEST_CASE(clove_hitch_loosens_through_every_change_of_contact) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(touches_of_a_line_are_named) {
+  // At T = 2 the tails touch twice with a line between, each of them the middle strand once.
+  std::map<std::string, int> kinds;
+  const nlohmann::json state = solved(0.285714, 2.0);
+  double self = 0.0;
+  for (const auto& touch : state["contact"]["self"]) {
+    ++kinds[touch["kind"]];
+    self += touch["force"].get<double>();
+    BOOST_TEST(touch["force"].get<double>() > 0.0);
+  }
+  BOOST_TEST(kinds["touch"] == 4);
+  BOOST_TEST(kinds["line"] >= 2);
+  BOOST_TEST(std::abs(self - state["self_force"].get<double>()) < 1e-9 * self);
+}
+
 BOOST_AUTO_TEST_CASE(half_and_full_chain_agree) {
   const double half = solved(0.285714, 1.0)["R_tot"],
                full = solved(0.285714, 1.0, {"model.symmetry=none"})["R_tot"];

@@ -58,6 +58,8 @@ struct JointRecord {
   /// size of the force between them, along the line between their places.
   int partner = -1;
   double strand_force = 0.0;
+  /// Is it one of the touches that a line between strands consists of? Not kept in run folders.
+  bool along_strand = false;
   Eigen::Vector3d holding_direction() const { return {std::cos(angle), std::sin(angle), 0.0}; }
 };
 
