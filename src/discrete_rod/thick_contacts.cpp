@@ -43,15 +43,14 @@ std::vector<Pressed> add_strands(const ThickRod& thick, const SplineRod& rod, co
     const double s = rod.knot(pair.element) + pair.t * rod.length(pair.element),
                  other = rod.knot(pair.other) + pair.other_t * rod.length(pair.other),
                  pressure = minimum.penalties.strands * (reach - pair.distance);
-    const Vector3d away = (rod.position(minimum.x, pair.element, pair.t) -
-                           rod.position(minimum.x, pair.other, pair.other_t)) /
-                          pair.distance;
+    const Vector3d away =
+        (rod.position(minimum.x, pair.element, pair.t) - rod.position(minimum.x, pair.other, pair.other_t)) /
+        pair.distance;
     // Each of two strands sees the touch: half the force comes from either.
     const Vector3d force = 0.5 * pair.weight * pressure * away;
     out.loads.push_back({s, force});
     out.loads.push_back({std::abs(other), other < 0.0 ? Vector3d(-half_turn(force)) : Vector3d(-force)});
-    pressed.push_back(
-        {{std::min(s, std::abs(other)), std::max(s, std::abs(other)), other < 0.0}, pressure});
+    pressed.push_back({{std::min(s, std::abs(other)), std::max(s, std::abs(other)), other < 0.0}, pressure});
   }
   return pressed;
 }
