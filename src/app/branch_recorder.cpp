@@ -74,7 +74,9 @@ void BranchRecorder::judge(const output::BranchRow& row) {
     ++imprecise_;
     worst_error_ = std::max(worst_error_, row.error_estimate);
   }
-  if (row.self_distance && *row.self_distance < output::touching * 2.0 * radius_) {
+  // A branch may be followed in the radius itself.
+  const double radius = writer_.info().parameter == "rod.radius" ? row.parameter.value_or(radius_) : radius_;
+  if (row.self_distance && *row.self_distance < output::touching * 2.0 * radius) {
     ++too_close_;
     closest_ = std::min(closest_, *row.self_distance);
   }
@@ -87,10 +89,10 @@ std::vector<std::string> BranchRecorder::warnings() const {
         fmt::format("model.tolerance = {:g} was not met at {} points: error estimates up to {:.1e}",
                     tolerance_, imprecise_, worst_error_));
   if (too_close_ > 0)
-    list.push_back(
-        fmt::format("the rod passes through itself at {} points: self_distance down to {:.6g}, under 2 "
-                    "rod.radius = {:.6g}",
-                    too_close_, closest_, 2.0 * radius_));
+    list.push_back(fmt::format(
+        "the rod passes through itself at {} points: self_distance down to {:.6g}, under 2 rod.radius{}",
+        too_close_, closest_,
+        writer_.info().parameter == "rod.radius" ? "" : fmt::format(" = {:.6g}", 2.0 * radius_)));
   return list;
 }
 

@@ -21,13 +21,12 @@ int run_verify(const RunRequest& request) {
     const auto& key = run.points.keys()[k];
     const std::string name = output::point_name(key.branch, key.point, key.label);
     const equilibrium::Solution solution = run.points.get(k);
-    const verify::Certificate certificate =
-        verify::verify(solution, scene_of_point(scene, run, k), request.standard);
+    const scene::Scene here = scene_of_point(scene, run, k);
+    const verify::Certificate certificate = verify::verify(solution, here, request.standard);
     report["points"].push_back({{"name", name}, {"certificate", verify::to_json(certificate)}});
     report["points"].back()["self_distance"] =
         output::finite_or_null(solution.self_distance.value_or(std::nan("")));
-    too_close +=
-        solution.self_distance && *solution.self_distance < output::touching * 2.0 * scene.rod_radius;
+    too_close += solution.self_distance && *solution.self_distance < output::touching * 2.0 * here.rod_radius;
     if (certificate.passed()) continue;
     ++failed;
     if (!request.common.json)
@@ -42,10 +41,9 @@ int run_verify(const RunRequest& request) {
   else if (!request.common.quiet)
     std::printf("%zu points integrated again with CVODE, %d failed\n", run.points.size(), failed);
   if (too_close > 0)
-    std::fprintf(
-        stderr,
-        "windlass: at %d points the rod passes through itself: self_distance under 2 rod.radius = %.6g\n",
-        too_close, 2.0 * scene.rod_radius);
+    std::fprintf(stderr,
+                 "windlass: at %d points the rod passes through itself: self_distance under 2 rod.radius\n",
+                 too_close);
   return failed > 0 ? certificate_failed : done;
 }
 

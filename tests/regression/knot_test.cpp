@@ -71,6 +71,23 @@ BOOST_AUTO_TEST_CASE(clove_hitch_loosens_through_every_change_of_contact) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(another_thickness) {
+  // Followed in the radius it keeps two of its own radii off itself at every point, and arrives at the state found from nothing.
+  const TemporaryFolder folder;
+  std::vector<std::string> command = tied("continue", 0.285714,
+                                          {"load.tension=1", "continuation.parameter=rod.radius",
+                                           "continuation.from=0.285714", "continuation.to=0.5"});
+  command.insert(command.end(), {"--out", "run", "--quiet", "--no-eigenvalues"});
+  const Outcome outcome = run_program(command, folder.path());
+  BOOST_TEST(outcome.status == 0, outcome.err);
+  BOOST_TEST(outcome.err == "");
+  const Outcome certificate = run_program({"verify", "run"}, folder.path());
+  BOOST_TEST(certificate.status == 0, certificate.out);
+  BOOST_TEST(certificate.err == "");
+  const double followed = std::stod(read_csv(folder.path() / "run" / "branches.csv").rows.back().at("R_tot"));
+  BOOST_TEST(std::abs(followed / solved(0.5, 1.0)["R_tot"].get<double>() - 1.0) < 1e-8);
+}
+
 BOOST_AUTO_TEST_CASE(touches_of_a_line_are_named) {
   // At T = 2 the tails touch twice with a line between, each of them the middle strand once.
   std::map<std::string, int> kinds;
