@@ -27,9 +27,8 @@ void add_cylinder(const SplineRod& rod, const ThickMinimum& minimum, ThickContac
       const double force = minimum.penalties.cylinder * Quadrature::weight[q] * rod.length(e) * depth;
       out.loads.push_back({s, force * outward.normalized()});
       const bool goes_on = last >= 0.0 && s - last < out.range;
-      if (!goes_on) out.cylinder.push_back({s, s, 0.0});
+      if (!goes_on) out.cylinder.push_back({s, s});
       out.cylinder.back().end = last = s;
-      out.cylinder.back().force += force;
     }
 }
 

@@ -107,7 +107,9 @@ void ThickRod::validate() const {
     throw std::invalid_argument("thick rod: half_length must exceed half the capstan angle by 1.5");
 }
 
-double ThickRod::length_of_knot() const { return 0.5 * angle + 1.0 + 3.0 / std::sqrt(tension); }
+double ThickRod::length_of_knot() const {
+  return std::min(0.5 * angle + 1.0 + 3.0 / std::sqrt(tension), 0.9 * half_length);
+}
 
 SplineRod ThickRod::spline(double h) const {
   return {half_length, fine_length > 0.0 ? fine_length : 0.5 * angle + fine_beyond, h};

@@ -105,7 +105,7 @@ std::optional<Started> relaxed_start(const scene::Scene& scene, const std::vecto
   const contact::Loads loads = loads_of(scene);
   discrete_rod::ThickRod thick{loads.tension, loads.angle, loads.half_length, loads.radius, curve};
   const double mesh = std::clamp(0.25 * loads.radius, 0.03, 0.1);
-  thick.fine_length = std::min(thick.length_of_knot(), 0.9 * loads.half_length);
+  thick.fine_length = thick.length_of_knot();
   const discrete_rod::ThickMinimum minimum = discrete_rod::minimise(thick, mesh);
   if (!minimum.converged) return failure = "the discrete rod did not come to rest", std::nullopt;
   const ThickContacts contacts = contacts_of(thick, minimum);

@@ -45,13 +45,6 @@ std::optional<Started> by_continuation(const scene::Scene& scene, bool spatial, 
   return reach(*from, scene, scene.load.tension, half, keys, failure);
 }
 
-/// Can the discrete rod stand for it? It knows no torsion, and ends free of moment alone.
-bool may_relax(const scene::Scene& scene) {
-  return scene.ends.left_kind() == scene::EndKind::moment_free &&
-         scene.ends.right_kind() == scene::EndKind::moment_free && scene.rod.natural_curvature == 0.0 &&
-         scene.rod.natural_twist == 0.0 && scene.rod.bending_stiffness_2 == scene.rod.bending_stiffness;
-}
-
 /// The same on the chain that is asked for.
 std::optional<Started> on_chain(const std::optional<Started>& found, bool half) {
   if (!found || half) return found;
@@ -77,7 +70,7 @@ std::optional<Started> thick_coil(const scene::Scene& scene, bool half, const st
   loose.load.tension = loose_tension;
   if (const auto from = thickened(loose, true, {"load.tension"}))
     if (const auto there = reach(*from, scene, scene.load.tension, half, keys, failure)) return there;
-  if (!may_relax(scene)) return std::nullopt;
+  if (!scene.free_of_torsion()) return std::nullopt;
   std::string not_relaxed;
   const std::optional<Started> relaxed = relaxed_start(scene, {}, keys, not_relaxed);
   if (!relaxed) failure += "; nor relaxed as a discrete rod: " + not_relaxed;

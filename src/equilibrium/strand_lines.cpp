@@ -77,12 +77,6 @@ std::vector<double> divided(const Monitor& monitor, int links, bool own_image) {
   return out;
 }
 
-/// Cuts a line where it is, with a touch of this mark on the strand that is there.
-void add_touch(Strip& strip, double at, int strand, double part, int line) {
-  const int i = strip.part_at(at);
-  strip.cut(i, at, {0, strand, part, line});
-}
-
 /// The line with so many links, what is no touch of it left where it is.
 Successor laid_anew(const StrandLine& line, Strip strip, const Monitor& monitor, int links) {
   const bool own_image = line.own_image();
@@ -101,7 +95,7 @@ Successor laid_anew(const StrandLine& line, Strip strip, const Monitor& monitor,
       const int number = own_image ? std::min(k, links - k) : reversed ? links - k : k;
       const bool image = own_image ? 2 * k > links : reversed;
       const double part = reversed ? 1.0 - parts[links - 1 - k] : parts[k - 1];
-      add_touch(strip, begin + length * part, image ? -(fresh + number) : fresh + number, part, mark);
+      add_touch(strip, begin + length * part, {0, image ? -(fresh + number) : fresh + number, part, mark});
     }
   };
   // What is cut first must not move what follows.
@@ -143,14 +137,6 @@ int unite(const Strands::Facing& here, Strip& strip) {
   gather(second);
   mark_line(strip, first, second, own_image, line);
   return line;
-}
-
-/// A touch at two places that face each other, of a line.
-void add_pair(Strip& strip, double s, double other, bool mirrored, bool own_strand, int strand, int line) {
-  constexpr double same = 1e-6;
-  add_touch(strip, s, strand, 0.5, line);
-  if (mirrored && own_strand && std::abs(s - other) < same) return;  // its own image
-  add_touch(strip, other, mirrored ? -strand : strand, 0.5, own_strand ? line : -line);
 }
 
 }  // namespace
@@ -200,7 +186,7 @@ std::optional<Successor> line_closes(const ContactEvent& event, const Topology& 
   const Strands::Facing* f = strands.facing(event.place, event.other, event.mirrored);
   if (!f) return std::nullopt;
   const int line = unite(*f, strip);
-  add_pair(strip, event.s, event.s_other, event.mirrored, f->begin == f->other_begin, line, line);
+  add_pair(strip, event.s, event.s_other, event.mirrored, f->begin == f->other_begin, {0, line, 0.5, line});
   measure_parts(strip);
   return strip.successor();
 }
@@ -216,8 +202,8 @@ std::optional<Successor> line_filled(const ContactEvent& event, const chain::Pro
     const Strands::Facing* f = strands.facing(near.link, near.other, near.mirrored);
     if (!f || f->line != here->line) continue;
     if (near.distance - 2.0 * profile.radius > -soon * carried_between_strands) continue;
-    add_pair(strip, near.s, near.s_other, near.mirrored, strands.lines()[f->line].own_image(), strand++,
-             topology.seat(f->begin).line);
+    add_pair(strip, near.s, near.s_other, near.mirrored, strands.lines()[f->line].own_image(),
+             {0, strand++, 0.5, topology.seat(f->begin).line});
   }
   measure_parts(strip);
   return strip.successor();
@@ -272,7 +258,7 @@ std::optional<Successor> line_opens(int joint, const Topology& topology, Strip s
   if (which < 0 || strip.on[joint].line == 0) return std::nullopt;
   const StrandLine& line = strands.lines()[which];
   const bool own_image = line.own_image();
-  const int last = line.links(), other = strands.partner(joint);
+  const int last = line.links();
   int at = 0;
   while (line.first[at] != joint && line.second[at] != joint) ++at;
   const int from = own_image ? std::min(at, last - at) : at, to = own_image ? last - from : at;
@@ -291,10 +277,7 @@ std::optional<Successor> line_opens(int joint, const Topology& topology, Strip s
   mark(0, from - 1, old, !own_image || from == 1);
   mark(to + 1, last, own_image ? old : fresh, !own_image || from == 1);
   if (own_image) mark(from + 1, to - 1, fresh, true);
-  for (const int j : {std::max(joint, other), std::min(joint, other)}) {
-    strip.merge(j - 1, j, joined(strip.parts[j - 1].kind, strip.parts[j].kind));
-    if (joint == other) break;
-  }
+  take_out(joint, strip);
   measure_parts(strip);
   return strip.successor();
 }

@@ -104,12 +104,27 @@ std::optional<Successor> after_length_beside_strand(int link, const Strip& strip
   return strand_passes_edge(link, strip);
 }
 
-std::vector<Successor> strands_part(int j, Strip strip) {
+void add_touch(Strip& strip, double at, const chain::Seat& seat) { strip.cut(strip.part_at(at), at, seat); }
+
+void add_pair(Strip& strip, double s, double other, bool mirrored, bool own_strand, chain::Seat seat) {
+  constexpr double same = 1e-6;
+  add_touch(strip, s, seat);
+  if (mirrored && own_strand && std::abs(s - other) < same) return;  // its own image
+  if (mirrored) seat.strand = -seat.strand;
+  if (!own_strand) seat.line = -seat.line;
+  add_touch(strip, other, seat);
+}
+
+void take_out(int j, Strip& strip) {
   const int other = partner(strip, j);
   for (const int joint : {std::max(j, other), std::min(j, other)}) {
     strip.merge(joint - 1, joint, joined(strip.parts[joint - 1].kind, strip.parts[joint].kind));
     if (j == other) break;
   }
+}
+
+std::vector<Successor> strands_part(int j, Strip strip) {
+  take_out(j, strip);
   measure_parts(strip);
   return {strip.successor()};
 }
@@ -127,13 +142,8 @@ std::vector<Successor> strand_lifts(int j, Strip strip) {
 }
 
 std::vector<Successor> strands_meet(const ContactEvent& event, Strip strip) {
-  constexpr double same = 1e-6;
   const int strand = new_strand(strip);
-  const bool own_image =
-      event.mirrored && event.place == event.other && std::abs(event.s - event.s_other) < same;
-  const auto touch = [&](double at, int mark) { strip.cut(strip.part_at(at), at, {0, mark}); };
-  touch(event.s, strand);
-  if (!own_image) touch(event.s_other, event.mirrored ? -strand : strand);
+  add_pair(strip, event.s, event.s_other, event.mirrored, event.place == event.other, {0, strand});
   return {strip.successor()};
 }
 

@@ -11,6 +11,18 @@ namespace windlass::equilibrium {
 /// The other joint of a touch between strands; j itself where it touches its own image.
 int partner(const Strip& strip, int j);
 
+/// A touch where the strip is cut, free or on the line's obstacle.
+void add_touch(Strip& strip, double at, const chain::Seat& seat);
+
+/// A touch of two places with each other, one where a strand meets its own image.
+/// @param mirrored    the other strand is the half-turn's image of that place
+/// @param own_strand  of a line between a strand and its image, or a place that is on one link with the other
+/// @param seat        of the first place; the second's has the opposite marks that these ask for (chain::Seat)
+void add_pair(Strip& strip, double s, double other, bool mirrored, bool own_strand, chain::Seat seat);
+
+/// Takes out a touch between strands: at each place the arcs beside it become one.
+void take_out(int j, Strip& strip);
+
 /// A mark that no touch has yet, see chain::Seat.
 int new_strand(const Strip& strip);
 

@@ -48,57 +48,33 @@ std::vector<PlannedRun> knot_runs() {
 
 namespace {
 
-struct Knot {
-  Thickness thickness;
-  std::vector<std::array<double, 2>> states;  ///< T, R_tot; from low tension up
-};
-
-std::vector<Knot> knots(const Study& study) {
-  std::vector<Knot> out;
-  for (const Thickness& thickness : thicknesses) {
-    if (thickness.colour == nullptr) continue;
-    Knot knot{thickness, {}};
-    for (const std::string& run : {clove_hitch_down_run(thickness), clove_hitch_up_run(thickness)})
-      for (const output::BranchRow& row : study.at(run).run.rows) knot.states.push_back({row.T, row.R_tot});
-    std::sort(knot.states.begin(), knot.states.end());
-    out.push_back(std::move(knot));
-  }
+std::vector<Drawn> knots(const Study& study) {
+  std::vector<Drawn> out;
+  for (const Thickness& thickness : thicknesses)
+    if (thickness.colour != nullptr)
+      out.push_back({thickness, states_of(study.at(clove_hitch_down_run(thickness)).run,
+                                          study.at(clove_hitch_up_run(thickness)).run)});
   return out;
 }
 
-/// Between the states, linear in the logarithms; nullopt outside them.
-std::optional<double> force_at(const Knot& knot, double tension) {
-  for (std::size_t k = 1; k < knot.states.size(); ++k) {
-    const auto &a = knot.states[k - 1], &b = knot.states[k];
-    if (tension < a[0] || tension > b[0] || a[0] == b[0]) continue;
-    const double x = std::log(tension / a[0]) / std::log(b[0] / a[0]);
-    return std::pow(a[1], 1.0 - x) * std::pow(b[1], x);
-  }
-  return std::nullopt;
-}
-
-std::string collapse(const std::vector<Knot>& list) {
+std::string collapse(const std::vector<Drawn>& list) {
   std::string text;
-  for (const double tension : {0.2, 0.3, 0.5, 0.8, 1.0}) {
-    double least = HUGE_VAL, most = 0.0;
-    for (const Knot& knot : list)
-      if (const auto force = force_at(knot, tension))
-        least = std::min(least, *force), most = std::max(most, *force);
+  for (const double tension : {0.2, 0.3, 0.5, 0.8, 1.0})
     text +=
-        fmt::format("{}{:.2g} % at T = {}", text.empty() ? "" : ", ", 100.0 * (most / least - 1.0), tension);
-  }
+        fmt::format("{}{:.2g} % at T = {}", text.empty() ? "" : ", ", 100.0 * spread(list, tension), tension);
   return text;
 }
 
 /// dlog R_tot/dlog T between 2 % below and above.
-std::string slopes(const std::vector<Knot>& list) {
+std::string slopes(const std::vector<Drawn>& list) {
   std::string text;
-  for (const Knot& knot : list)
+  for (const Drawn& knot : list)
     for (const double tension : {0.3, 0.5, 1.0, 2.0}) {
-      const auto below = force_at(knot, tension / 1.02), above = force_at(knot, tension * 1.02);
+      const auto below = two_turns_at(knot.states, tension / 1.02),
+                 above = two_turns_at(knot.states, tension * 1.02);
       if (below && above)
         text += fmt::format("{}R/r = {}, T = {}: {:.2f}", text.empty() ? "" : "; ", knot.thickness.name,
-                            tension, std::log(*above / *below) / (2.0 * std::log(1.02)));
+                            tension, std::log(above->R_tot / below->R_tot) / (2.0 * std::log(1.02)));
     }
   return text;
 }
@@ -106,13 +82,13 @@ std::string slopes(const std::vector<Knot>& list) {
 }  // namespace
 
 Figure clove_hitch(const Study& study, const Canvas& canvas) {
-  const std::vector<Knot> list = knots(study);
+  const std::vector<Drawn> list = knots(study);
   std::string curves;
   std::vector<std::string> names = {"2pi", "4pi"};
-  for (const Knot& knot : list) {
+  for (const Drawn& knot : list) {
     const std::string file = fmt::format("clove-hitch-{}.dat", knot.thickness.name);
     std::string text = "# T | R_tot\n";
-    for (const auto& state : knot.states) text += output::data_line({state[0], state[1]});
+    for (const auto& state : knot.states) text += output::data_line({state.T, state.R_tot});
     output::replace_file(canvas.folder / file, std::string_view(text));
     curves +=
         fmt::format(", \\\n    '{}' using 1:2 with lines lw 2.2 lc rgb '{}' title 'clove hitch, R/r = {}'",

@@ -17,17 +17,6 @@ namespace {
 
 constexpr double two_turns_angle = 4.0 * M_PI;
 
-/// Largest over smallest force of all thicknesses, less 1; negative where one of them is not known.
-double spread(const std::vector<Drawn>& list, double tension) {
-  double least = HUGE_VAL, most = 0.0;
-  for (const Drawn& one : list) {
-    const auto state = two_turns_at(one.states, tension);
-    if (!state) return -1.0;
-    least = std::min(least, state->R_tot), most = std::max(most, state->R_tot);
-  }
-  return most / least - 1.0;
-}
-
 std::string reach(const std::vector<Drawn>& list) {
   std::string text;
   for (const Drawn& one : list)

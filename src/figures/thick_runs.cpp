@@ -90,9 +90,11 @@ StrandEvents events_of(const std::vector<output::SpecialPoint>& points) {
 }
 
 std::vector<TwoTurns> two_turns(const Study& study, const Thickness& thickness) {
+  return states_of(study.at(two_turns_down_run(thickness)).run, study.at(two_turns_up_run(thickness)).run);
+}
+
+std::vector<TwoTurns> states_of(const output::Run& down, const output::Run& up) {
   std::vector<TwoTurns> states;
-  const output::Run &down = study.at(two_turns_down_run(thickness)).run,
-                    &up = study.at(two_turns_up_run(thickness)).run;
   const auto add = [&](const output::Run& run, const output::BranchRow& row) {
     const auto point = run.points.find(output::point_name(row.branch, row.point, row.label));
     if (!point || (!states.empty() && !(row.T > states.back().T))) return;

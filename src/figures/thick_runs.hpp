@@ -35,7 +35,7 @@ struct StrandEvents {
 };
 StrandEvents events_of(const std::vector<output::SpecialPoint>& points);
 
-/// A state of two turns.
+/// A state of two turns, or of a knot of as many.
 struct TwoTurns {
   double T, R_tot;  ///< [EI/ρ²]
   double wrapping,
@@ -45,6 +45,8 @@ struct TwoTurns {
 
 /// Of both runs of two turns, from low tension up, to the highest or where the run ends.
 std::vector<TwoTurns> two_turns(const Study& study, const Thickness& thickness);
+/// Of two runs that start at one state, the first from there down in tension, the second up.
+std::vector<TwoTurns> states_of(const output::Run& down, const output::Run& up);
 
 /// Between the states, linear in log R_tot and log T, and in the angles; nullopt outside them.
 std::optional<TwoTurns> two_turns_at(const std::vector<TwoTurns>& states, double tension);

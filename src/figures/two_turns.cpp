@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "windlass/output/atomic_file.hpp"
@@ -14,6 +15,16 @@ std::vector<Drawn> drawn(const Study& study) {
   for (const Thickness& thickness : thicknesses)
     if (thickness.colour != nullptr) list.push_back({thickness, two_turns(study, thickness)});
   return list;
+}
+
+double spread(const std::vector<Drawn>& list, double tension) {
+  double least = HUGE_VAL, most = 0.0;
+  for (const Drawn& one : list) {
+    const auto state = two_turns_at(one.states, tension);
+    if (!state) return -1.0;
+    least = std::min(least, state->R_tot), most = std::max(most, state->R_tot);
+  }
+  return most / least - 1.0;
 }
 
 std::string file_of(const Thickness& thickness) { return fmt::format("two-turns-{}.dat", thickness.name); }

@@ -17,6 +17,9 @@ struct Drawn {
 /// The ratios of the paper, with their states.
 std::vector<Drawn> drawn(const Study& study);
 
+/// Largest force at a tension over the smallest of all thicknesses, less 1; negative where one of them is not known.
+double spread(const std::vector<Drawn>& list, double tension);
+
 /// Data of one of them: columns T, R_tot, wrapping angle/π, angle along lines/π.
 std::string file_of(const Thickness& thickness);
 void write_states(const std::vector<Drawn>& list, const Canvas& canvas);

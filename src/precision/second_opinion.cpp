@@ -24,7 +24,7 @@ discrete_rod::ThickRod thick_rod(const scene::Scene& scene) {
                                          : 0.5 * scene.rod.length;
   if (scene.knot.tied()) {
     rod.curve = knot::start_curve(scene);
-    rod.fine_length = std::min(rod.length_of_knot(), 0.9 * rod.half_length);
+    rod.fine_length = rod.length_of_knot();
   }
   return rod;
 }
@@ -86,10 +86,7 @@ OpinionStates default_states(const scene::Scene& scene) {
 }
 
 bool has_second_opinion(const scene::Scene& scene) {
-  return scene.has_cylinder && scene.strand_radius() > 0.0 &&
-         scene.ends.left_kind() == scene::EndKind::moment_free &&
-         scene.ends.right_kind() == scene::EndKind::moment_free && scene.rod.natural_curvature == 0.0 &&
-         scene.rod.natural_twist == 0.0 && scene.rod.bending_stiffness == scene.rod.bending_stiffness_2;
+  return scene.has_cylinder && scene.strand_radius() > 0.0 && scene.free_of_torsion();
 }
 
 SecondOpinion second_opinion(const scene::Scene& scene, OpinionStates states, const StudyOptions& options) {

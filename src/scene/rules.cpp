@@ -107,9 +107,7 @@ void check_knot(const Document& document, const Scene& scene) {
   for (const char* end : {"ends.kind", "ends.left", "ends.right"})
     if (scene.ends.left_kind() != EndKind::moment_free || scene.ends.right_kind() != EndKind::moment_free)
       forbid(document, end, "must be \"moment_free\" for a knot");
-  const Rod& rod = scene.rod;
-  if (rod.natural_curvature != 0.0 || rod.natural_twist != 0.0 ||
-      rod.bending_stiffness_2 != rod.bending_stiffness)
+  if (!scene.rod.isotropic_straight())
     forbid(document, key, "needs an isotropic, naturally straight rod: its start is relaxed without torsion");
   if (scene.continuation && scene.continuation->parameter == "load.angle" &&
       scene.knot.kind == KnotKind::clove_hitch)

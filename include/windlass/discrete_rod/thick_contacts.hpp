@@ -10,7 +10,6 @@ namespace windlass::discrete_rod {
 /// A stretch that lies on the cylinder.
 struct LyingStretch {
   double begin = 0.0, end = 0.0;  ///< as long as the bed is pressed on [ρ]
-  double force = 0.0;             ///< [EI/ρ²]
 };
 
 /// A place where two strands press on each other hardest.

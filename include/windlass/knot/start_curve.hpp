@@ -20,7 +20,7 @@ Curve clove_hitch(double radius);
 /// The points x, y, z [ρ] of a whole curve in a CSV file, from end to end; of its half from the mid-point on what is read.
 /// @param radius  of the rod; @param length  of the rod: the curve must not be longer
 /// @throws InputError naming file, line and column, or what is wrong with the curve: too few points, not its own half-turn image,
-///         nearer to itself than 2r, through the cylinder
+///         nearer to itself than r, through the cylinder
 Curve read_curve(const std::filesystem::path& path, double radius, double length);
 
 /// The curve of a scene that is tied.

@@ -24,6 +24,9 @@ struct Rod {
   double natural_curvature = 0.0;  ///< κ̂ in the plane of the flat rod, > 0 the way round the cylinder [1/ρ]
   double natural_twist = 0.0;      ///< û₃ [1/ρ]
   bool infinite() const;
+  bool isotropic_straight() const {
+    return bending_stiffness_2 == bending_stiffness && natural_curvature == 0.0 && natural_twist == 0.0;
+  }
 
   bool operator==(const Rod&) const = default;
 };
@@ -133,6 +136,11 @@ struct Scene {
            obstacles_keep_half_turn();
   }
   bool obstacles_keep_half_turn() const;
+  /// Is there no torsion anywhere? Then the centre line alone is the rod, as the thick discrete rod has it.
+  bool free_of_torsion() const {
+    return ends.left_kind() == EndKind::moment_free && ends.right_kind() == EndKind::moment_free &&
+           rod.isotropic_straight();
+  }
   bool has_obstacles() const { return has_cylinder || !walls.empty(); }
 
   bool operator==(const Scene&) const = default;
