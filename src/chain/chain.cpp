@@ -88,6 +88,7 @@ Chain::Chain(std::vector<std::unique_ptr<Joint>> joints, std::vector<double> fix
 void Chain::keep_coordinates() {
   for (int j = 0; j < joint_count(); ++j) {
     if (!on_obstacle(j)) continue;
+    if (gauges_.travel != Travel::none && !joints_[j]->surface()->slips()) continue;  // a plate lets the rod slide
     if (!in_contact_) first_contact_ = j;
     last_contact_ = j;
     in_contact_ = true;
@@ -211,8 +212,19 @@ VectorXd Chain::force(const VectorXd& x, const Loads& loads, int link) const {
   const Link& l = links_[link];
   if (l.pull == 0) return x.segment(force_at_[link], l.arc->forces());
   VectorXd n = VectorXd::Zero(l.arc->forces());
-  n(0) = loads.tension * std::cos(0.5 * loads.angle);
-  n(1) = l.pull * loads.tension * std::sin(0.5 * loads.angle);
+  const double difference = gauges_.travel == Travel::blocked ? x(slide_at_ + 1) : 0.0;
+  const double tension = loads.tension + l.pull * difference;
+  n(0) = tension * std::cos(0.5 * loads.angle);
+  n(1) = l.pull * tension * std::sin(0.5 * loads.angle);
+  return n;
+}
+
+VectorXd Chain::force_by_travel(const Loads& loads, int link) const {
+  const Link& l = links_[link];
+  VectorXd n = VectorXd::Zero(l.arc->forces());
+  if (l.pull == 0 || gauges_.travel != Travel::blocked) return n;
+  n(0) = l.pull * std::cos(0.5 * loads.angle);
+  n(1) = std::sin(0.5 * loads.angle);
   return n;
 }
 
@@ -223,6 +235,8 @@ Chain::Placed Chain::place(const VectorXd& x, const Loads& loads, int link) cons
   p.n = force(x, loads, link);
   p.interior = interior(x, link);
   p.length = length(x, loads, link);
+  p.friction = loads.friction;
+  p.travel = loaded(x, loads).travel;
   if (std::isinf(p.length)) p.length = tail_decay_lengths / std::sqrt(p.n.norm());
   // Between contacts the equations hold, analytically, for lengths past zero too, so that the event can be located
   // from both sides; only zero itself is singular and is stepped over. A tail must exist.
@@ -297,9 +311,10 @@ VectorXd Chain::residual(const VectorXd& x, const Loads& loads) const {
     arc.gradient(p.point(), f.data() + interior_row_[i], g);
     const int d = arc.tangent(), forces = arc.forces();
     const Eigen::Index left = numbering_.coordinate[i], right = numbering_.coordinate[i + 1];
-    f.segment(left, p.left.dq.cols()) += p.left.dq.transpose() * g.head(d) - p.left.dx.transpose() * p.n;
+    f.segment(left, p.left.dq.cols()) += p.left.dq.transpose() * g.head(d) - p.left.test().transpose() * p.n;
     f.segment(right, p.right.dq.cols()) +=
-        p.right.dq.transpose() * g.segment(d, d) + p.right.dx.transpose() * p.n;
+        p.right.dq.transpose() * g.segment(d, d) + p.right.test().transpose() * force_at_end(arc, p.n, g);
+    if (gauges_.travel != Travel::none) add_drag(x, loads, i, f);
     if (links_[i].pull == 0)
       f.segment(numbering_.force[i], forces) = g.segment(2 * d, forces) + rise(x, p, i);
   }
@@ -315,9 +330,25 @@ VectorXd Chain::residual(const VectorXd& x, const Loads& loads) const {
     const double share = slide_share(j);
     if (share == 0.0) continue;
     if (!slides_) f(numbering_.slide) += share * arclength(x, loads, j);
-    f(numbering_.coordinate[j]) += share * x(slide_at_ + 1);
+    if (gauges_.travel == Travel::none) f(numbering_.coordinate[j]) += share * x(slide_at_ + 1);
   }
   return f;
+}
+
+VectorXd Chain::force_at_end(const Arc& arc, const VectorXd& n, const bvp::EndsVector& gradient) {
+  return arc.carried() == 0 ? n : VectorXd(n + gradient.tail(arc.carried()));
+}
+
+void Chain::add_drag(const VectorXd& x, const Loads& loads, int link, VectorXd& f) const {
+  const int d = links_[link].arc->tangent();
+  for (const Side side : {Side::right, Side::left}) {
+    const int joint = side == Side::right ? link : link + 1;
+    const auto drag = joints_[joint]->drag(side, coordinates(x, joint), loaded(x, loads),
+                                           gradients_[link].segment(side == Side::right ? 0 : d, d));
+    if (!drag) continue;
+    for (std::size_t k = 0; k < kept_[joint].size(); ++k)
+      f(numbering_.coordinate[joint] + static_cast<Eigen::Index>(k)) += drag->value(kept_[joint][k]);
+  }
 }
 
 double Chain::nodal_norm(const VectorXd& dx) const {

@@ -23,14 +23,16 @@ constexpr double nothing = 1e-8;
 
 Attachment Chain::attachment(Purpose purpose, const VectorXd& x, const Loads& loads, int joint,
                              Side side) const {
-  Attachment at = joints_[joint]->attach(side, coordinates(x, joint), loads);
+  Attachment at = joints_[joint]->attach(side, coordinates(x, joint), loaded(x, loads));
   const std::vector<int>& kept = this->kept(purpose, joint);
   const auto count = static_cast<Eigen::Index>(kept.size());
   if (count == at.dq.cols()) return at;
   for (Eigen::Index k = 0; k < count; ++k) {
     at.dq.col(k) = at.dq.col(kept[k]).eval();
     at.dx.col(k) = at.dx.col(kept[k]).eval();
+    if (at.tested.size() > 0) at.tested.col(k) = at.tested.col(kept[k]).eval();
   }
+  if (at.tested.size() > 0) at.tested.conservativeResize(Eigen::NoChange, count);
   at.dq.conservativeResize(Eigen::NoChange, count);
   at.dx.conservativeResize(Eigen::NoChange, count);
   return at;
@@ -53,26 +55,32 @@ bvp::EndsMatrix Chain::with_commutator(const Arc& arc, const bvp::EndsMatrix& sy
 Chain::Local Chain::local(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads,
                           int link) const {
   const Arc& arc = *links_[link].arc;
-  const int d = arc.tangent(), forces = arc.forces(), ends = arc.ends();
+  const int d = arc.tangent(), forces = arc.forces(), ends = arc.ends(), length = arc.length_end();
   Local l;
-  const SmallMatrix left = attachment(purpose, x, loads, link, Side::right).dq;
-  const SmallMatrix right = attachment(purpose, x, loads, link + 1, Side::left).dq;
-  l.columns = MatrixXd::Zero(ends, left.cols() + right.cols() + 2 + forces);
+  const Attachment left = attachment(purpose, x, loads, link, Side::right);
+  const Attachment right = attachment(purpose, x, loads, link + 1, Side::left);
+  const bool travels = gauges_.travel != Travel::none && purpose == Purpose::equilibrium;
+  l.columns = MatrixXd::Zero(ends, left.dq.cols() + right.dq.cols() + 2 + forces + travels);
   l.rows = l.columns;
   Eigen::Index k = 0;
-  const auto coordinates_of = [&](const SmallMatrix& dq, int joint, int first_end) {
-    for (Eigen::Index c = 0; c < dq.cols(); ++c, ++k) {
+  const auto coordinates_of = [&](const Attachment& at, int joint, Side side, int first_end) {
+    const auto drag = travels ? joints_[joint]->drag(side, coordinates(x, joint), loaded(x, loads),
+                                                     gradients_[link].segment(first_end, d))
+                              : std::nullopt;
+    for (Eigen::Index c = 0; c < at.dq.cols(); ++c, ++k) {
       l.dofs.push_back(numbering.coordinate[joint] + c);
-      l.columns.col(k).segment(first_end, d) = dq.col(c);
-      l.rows.col(k).segment(first_end, d) = dq.col(c);
+      l.columns.col(k).segment(first_end, d) = at.dq.col(c);
+      l.rows.col(k).segment(first_end, d) = at.dq.col(c);
+      if (drag) l.rows.col(k).segment(first_end, d) += drag->by_gradient.row(kept_[joint][c]).transpose();
+      if (side == Side::left && arc.carried() > 0) l.rows.col(k).tail(arc.carried()) = at.test().col(c);
     }
   };
   const auto arclength_of = [&](int joint, double sign, Side arc_side, int first_end) {
     if (numbering.location[joint] < 0) return;
     l.dofs.push_back(numbering.location[joint]);
-    l.columns(ends - 1, k) = sign;
+    l.columns(length, k) = sign;
     if (purpose != Purpose::equilibrium) {
-      l.rows(ends - 1, k) = sign;
+      l.rows(length, k) = sign;
     } else {
       const Joint::Location c = location(x, joint);
       if (c.side == arc_side && c.by_gradient.size() == d)
@@ -80,18 +88,50 @@ Chain::Local Chain::local(Purpose purpose, const Numbering& numbering, const Vec
     }
     ++k;
   };
-  coordinates_of(left, link, 0);
+  coordinates_of(left, link, Side::right, 0);
   arclength_of(link, -1.0, Side::right, 0);
   if (links_[link].pull == 0)
     for (int i = 0; i < forces; ++i, ++k) {
       l.dofs.push_back(numbering.force[link] + i);
       l.columns(2 * d + i, k) = l.rows(2 * d + i, k) = 1.0;
     }
-  coordinates_of(right, link + 1, d);
+  coordinates_of(right, link + 1, Side::left, d);
   arclength_of(link + 1, 1.0, Side::left, d);
+  if (travels) {
+    l.dofs.push_back(numbering.slide);
+    if (gauges_.travel == Travel::blocked) l.columns.col(k).segment(2 * d, forces) = force_by_travel(loads, link);
+    else if (arc.carried() > 0) l.columns(length + 1, k) = 1.0;
+    ++k;
+  }
   l.columns.conservativeResize(ends, k);
   l.rows.conservativeResize(ends, k);
   return l;
+}
+
+void Chain::add_travel(const VectorXd& x, const Loads& loads, int link, Side side, const SmallVector& gradient,
+                       const SmallVector& force, MatrixXd& dense) const {
+  const int joint = side == Side::right ? link : link + 1;
+  const double sign = side == Side::right ? -1.0 : 1.0;
+  const Eigen::Index first = numbering_.coordinate[joint];
+  if (gauges_.travel == Travel::blocked) {
+    const Attachment at = attachment(Purpose::equilibrium, x, loads, joint, side);
+    dense.col(numbering_.slide).segment(first, at.dx.cols()) +=
+        sign * at.test().transpose() * force_by_travel(loads, link);
+    return;
+  }
+  // Smooth in ω, and a matter of a few numbers: by differences.
+  const Loads here = loaded(x, loads);
+  const auto taken = [&](double travel) {
+    Loads at = here;
+    at.travel = travel;
+    SmallVector f = sign * joints_[joint]->attach(side, coordinates(x, joint), at).test().transpose() * force;
+    if (const auto drag = joints_[joint]->drag(side, coordinates(x, joint), at, gradient)) f += drag->value;
+    return f;
+  };
+  constexpr double h = 1e-5;
+  const SmallVector by_travel = (taken(here.travel + h) - taken(here.travel - h)) / (2.0 * h);
+  for (std::size_t k = 0; k < kept_[joint].size(); ++k)
+    dense(first + static_cast<Eigen::Index>(k), numbering_.slide) += by_travel(kept_[joint][k]);
 }
 
 void Chain::add_joint_terms(Purpose purpose, const Numbering& numbering, const VectorXd& x,
@@ -99,7 +139,8 @@ void Chain::add_joint_terms(Purpose purpose, const Numbering& numbering, const V
                             MatrixXd& dense) const {
   const Arc& arc = *links_[link].arc;
   const int d = arc.tangent();
-  const SmallVector n = force(x, loads, link);
+  const SmallVector n = force(x, loads, link), n_end = force_at_end(arc, n, gradient);
+  const bool travels = gauges_.travel != Travel::none && purpose == Purpose::equilibrium;
   for (const Side side :
        {Side::right, Side::left}) {  // of the joint: the arc starts at its right, ends at its left
     const int joint = side == Side::right ? link : link + 1;
@@ -108,15 +149,21 @@ void Chain::add_joint_terms(Purpose purpose, const Numbering& numbering, const V
     const Eigen::Index first = numbering.coordinate[joint], count = at.dx.cols();
     const int all = joints_[joint]->tangent();
     SmallMatrix bend = SmallMatrix::Zero(all, all);
-    const SmallVector g = gradient.segment(side == Side::right ? 0 : d, d), f = sign * n;
-    joints_[joint]->curvature(side, coordinates(x, joint), loads, g, f, bend);
+    const SmallVector g = gradient.segment(side == Side::right ? 0 : d, d),
+                      f = side == Side::right ? SmallVector(-n) : n_end;
+    joints_[joint]->curvature(side, coordinates(x, joint), loaded(x, loads), g, f, bend);
+    if (travels) {
+      if (const auto drag = joints_[joint]->drag(side, coordinates(x, joint), loaded(x, loads), g))
+        bend += drag->by_w;
+      add_travel(x, loads, link, side, g, side == Side::right ? n : n_end, dense);
+    }
     const std::vector<int>& kept = this->kept(purpose, joint);
     for (Eigen::Index r = 0; r < count; ++r)
       for (Eigen::Index c = 0; c < count; ++c) dense(first + r, first + c) += bend(kept[r], kept[c]);
     if (links_[link].pull != 0) continue;
     const Eigen::Index row = numbering.force[link];
     dense.block(row, first, n.size(), count) += sign * at.dx;
-    dense.block(first, row, count, n.size()) += sign * at.dx.transpose();
+    dense.block(first, row, count, n.size()) += sign * at.test().transpose();
   }
 }
 
@@ -134,7 +181,7 @@ void Chain::add_locations(const VectorXd& x, MatrixXd& dense) const {
     const double share = slide_share(j);
     if (share == 0.0) continue;
     if (!slides_) dense(numbering_.slide, numbering_.location[j]) += share;
-    dense(numbering_.coordinate[j], numbering_.slide) += share;
+    if (gauges_.travel == Travel::none) dense(numbering_.coordinate[j], numbering_.slide) += share;
   }
 }
 
@@ -216,8 +263,8 @@ void Chain::factor(const VectorXd& x, const Loads& loads, const MatrixXd& b_aske
     reduce(row, true);
     border_b_.col(j) = column;
     border_c_.col(j) = row;
-    interior_b_.col(j) = interior_solve(column);
-    interior_c_.col(j) = interior_solve(row);
+    interior_b_.col(j) = interior_solve(column, false);
+    interior_c_.col(j) = interior_solve(row, true);
   }
   if (k > 0) {
     dense.topRightCorner(n, k) = border_b_.topRows(n);
@@ -246,7 +293,8 @@ void Chain::reduce(VectorXd& f, bool transposed) const {
     const Arc& arc = *links_[i].arc;
     if (arc.interior_nodes() == 0) continue;
     ends.setZero(arc.ends());
-    arc.reduce(f.data() + interior_row_[i], ends);
+    double* interior = f.data() + interior_row_[i];
+    transposed ? arc.reduce_transposed(interior, ends) : arc.reduce(interior, ends);
     const Local& l = locals_[i];
     const VectorXd share = (transposed ? l.columns : l.rows).transpose() * ends;
     for (std::size_t r = 0; r < l.dofs.size(); ++r) f(l.dofs[r]) += share(r);
@@ -262,18 +310,20 @@ void Chain::expand(VectorXd& f, bool transposed) const {
     y.resize(l.dofs.size());
     for (std::size_t r = 0; r < l.dofs.size(); ++r) y(r) = f(l.dofs[r]);
     const bvp::EndsVector ends = (transposed ? l.rows : l.columns) * y;
-    arc.expand(f.data() + interior_row_[i], ends);
+    double* interior = f.data() + interior_row_[i];
+    transposed ? arc.expand_transposed(interior, ends) : arc.expand(interior, ends);
   }
 }
 
-VectorXd Chain::interior_solve(VectorXd reduced) const {
+VectorXd Chain::interior_solve(VectorXd reduced, bool transposed) const {
   reduced.head(dense_size_).setZero();
   bvp::EndsVector ends;
   for (int i = 0; i < link_count(); ++i) {
     const Arc& arc = *links_[i].arc;
     if (arc.interior_nodes() == 0) continue;
     ends.setZero(arc.ends());
-    arc.expand(reduced.data() + interior_row_[i], ends);
+    double* interior = reduced.data() + interior_row_[i];
+    transposed ? arc.expand_transposed(interior, ends) : arc.expand(interior, ends);
   }
   return reduced;
 }

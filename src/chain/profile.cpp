@@ -55,7 +55,9 @@ void sample_surface(const bvp::ArcSamples& samples, const RodKind& rod, const ob
   const rod::Material material = rod.material();
   for (Eigen::Index k = 0; k < samples.sigma.size(); ++k) {
     const Eigen::Vector2d u = start + samples.displacement.col(k).head<2>(), q = samples.q.col(k).head<2>();
-    const rod::LineSection at = rod::line_section(surface, material, q, samples.momentum.col(k).head<2>(), n);
+    const Eigen::Vector2d here_n = samples.force.size() > 0 ? Eigen::Vector2d(samples.force.col(k)) : n;
+    const rod::LineSection at =
+        rod::line_section(surface, material, q, samples.momentum.col(k).head<2>(), here_n);
     const obstacle::Chart here = surface.chart(u);
     const double c = std::cos(q(0)), s = std::sin(q(0));
     Eigen::Matrix3d darboux;
@@ -85,9 +87,13 @@ double surface_force(const Piece& piece, const bvp::ArcSamples& samples, const R
     const double h = (samples.sigma(samples.nodes[e + 1]) - samples.sigma(first)) * length;
     for (int g = 0; g < table.stages; ++g) {
       Eigen::Vector2d q = Eigen::Vector2d::Zero();
-      for (int i = 0; i <= table.stages; ++i) q += table.value(g, i) * samples.q.col(first + i).head<2>();
+      Eigen::Vector2d along = samples.force.size() > 0 ? Eigen::Vector2d::Zero() : n;
+      for (int i = 0; i <= table.stages; ++i) {
+        q += table.value(g, i) * samples.q.col(first + i).head<2>();
+        if (samples.force.size() > 0) along += table.value(g, i) * samples.force.col(first + i);
+      }
       const Eigen::Vector2d momentum = samples.momentum.col(first).head<2>();
-      sum += h * table.weight(g) * rod::line_section(surface, material, q, momentum, n).hoop;
+      sum += h * table.weight(g) * rod::line_section(surface, material, q, momentum, along).hoop;
     }
   }
   return sum;
@@ -249,7 +255,8 @@ double total_contact_force(const Chain& chain, const Topology& topology, const R
       n_first.head(n.size()) = n;
       n_last = n_first;
     }
-    if (chain.on_obstacle(i)) {
+    // R_tot is what the first obstacle, the cylinder, carries; a plate's share is told apart.
+    if (chain.on_obstacle(i) && (rod.strut || topology.pushed_by(i) == 0)) {
       const Vector3d normal = chain.joint(i).chart(chain.coordinates(x, i)).normal;
       sum += copies(topology, i) *
              (force_before(i, n_before, n_first) - n_first - strand_push(chain, x, i)).dot(normal);

@@ -39,7 +39,7 @@ Contact obstacle_contact(const Chain& chain, const Topology& topology, const Rod
   const Joint& joint = chain.joint(j);
   const obstacle::Chart here = joint.chart(chain.coordinates(x, j));
   c.edge = joint.kind() == JointKind::edge;
-  c.obstacle = topology.obstacle(j);
+  c.obstacle = topology.pushed_by(j);
   c.angle = joint.surface()->turn(joint.on_surface(chain.coordinates(x, j)));
   c.r = here.r;
   c.normal = c.surface_normal = here.normal;
@@ -124,8 +124,9 @@ void add_contacts(const Chain& chain, const Topology& topology, const RodKind& r
 double total_contact_force(const Profile& profile, const Topology& topology) {
   double sum = 0.0;
   for (const Piece& piece : profile.pieces) sum += piece.force * (topology.half ? 2.0 : 1.0);
+  const bool capstan = profile.obstacles.size() > 0 && profile.obstacles[0].slips();
   for (const Contact& c : profile.contacts)
-    sum += (c.coupling < 0 ? c.force : c.reaction.value_or(0.0)) * copies(topology, c.joint);
+    if (!capstan || c.obstacle <= 0) sum += (c.coupling < 0 ? c.force : c.reaction.value_or(0.0)) * copies(topology, c.joint);
   return sum;
 }
 

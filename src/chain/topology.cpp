@@ -9,6 +9,7 @@
 #include "windlass/contact/planar_joints.hpp"
 #include "windlass/contact/spatial_joints.hpp"
 #include "windlass/rod/closed_form_arcs.hpp"
+#include "windlass/rod/dragged_line_arc.hpp"
 #include "windlass/rod/kirchhoff_density.hpp"
 #include "windlass/rod/planar_density.hpp"
 
@@ -69,6 +70,8 @@ std::unique_ptr<Joint> contact_joint(const RodKind& rod, Stretch left, Stretch r
   const int obstacle = seat.obstacle;
   if (left == Stretch::line && right == Stretch::line && seat.strand != 0 && rod.spatial)
     return std::make_unique<spatial::Pressed>(rod.obstacles.pointer(obstacle));
+  if (left == Stretch::line && right == Stretch::line && seat.stop >= 0 && rod.spatial)
+    return std::make_unique<spatial::Stopped>(rod.obstacles.pointer(obstacle), rod.obstacles.pointer(seat.stop), seat.middle);
   if (left == Stretch::line && right == Stretch::line)
     throw std::invalid_argument("two line contacts cannot meet at a joint");
   if (left != Stretch::line && right != Stretch::line) {
@@ -89,6 +92,9 @@ std::unique_ptr<Arc> make_arc(const RodKind& rod, Stretch stretch, int obstacle,
   if (stretch == Stretch::line) {
     if (!rod.spatial)
       return std::make_unique<rod::PlanarLineArc>(rod.bending_stiffness, rod.natural_curvature());
+    if (rod.travel != Travel::none && rod.obstacles[obstacle].slips())
+      return std::make_unique<rod::DraggedLineArc>(
+          rod::SurfaceDensity{rod.bending_stiffness, rod.stiffness(2)}, mesh.nodes, mesh.stages);
     return rod::make_line_arc(rod.obstacles[obstacle], rod.material(), mesh.nodes, mesh.stages);
   }
   if (stretch == Stretch::tail && closed_form(rod, mesh)) {
@@ -128,6 +134,13 @@ bool contacts_let_slide_along_x(const RodKind& rod, const Topology& t) {
   return true;
 }
 
+/// Does the rod touch an obstacle that does not let it move along the axis?
+bool on_plate(const RodKind& rod, const Topology& t) {
+  for (int j = 1; j < static_cast<int>(t.stretches.size()); ++j)
+    if (t.seat(j).strand == 0 && rod.obstacles[t.pushed_by(j)].curvature() == 0.0) return true;
+  return false;
+}
+
 /// Which rigid motions cost nothing and are held, and how; see Chain::Gauges.
 Chain::Gauges gauges(const RodKind& rod, const Topology& t) {
   Chain::Gauges g;
@@ -141,7 +154,8 @@ Chain::Gauges gauges(const RodKind& rod, const Topology& t) {
     if (!touched && (rod.isotropic_straight() || pinned)) g.phase = rod.isotropic_straight() ? -1.0 : 0.0;
     return g;
   }
-  g.height = rod.spatial;
+  g.height = rod.spatial && rod.travel == Travel::none && !on_plate(rod, t);
+  g.travel = rod.spatial ? rod.travel : Travel::none;
   g.spin = rod.spatial && !rod.clamped() && rod.isotropic_straight();
   g.slide = true;
   return g;
@@ -214,7 +228,8 @@ std::string Topology::text() const {
   const std::vector<Stretch>& all = whole.stretches;
   const Strands strands(whole);
   const auto named = [&](const char* contact, std::size_t joint) {
-    const int obstacle = whole.obstacle(static_cast<int>(joint));
+    const int obstacle = contact == std::string_view("line") ? whole.obstacle(static_cast<int>(joint))
+                                                             : whole.pushed_by(static_cast<int>(joint));
     return obstacle == 0 ? std::string(contact) : std::string(contact) + ":" + std::to_string(obstacle + 1);
   };
   std::string text;
@@ -235,7 +250,9 @@ std::string Topology::text() const {
 bool Topology::operator==(const Topology& other) const {
   if (stretches != other.stretches || half != other.half || mid_touch != other.mid_touch) return false;
   for (int j = 0; j <= static_cast<int>(stretches.size()); ++j)
-    if (seat(j).obstacle != other.seat(j).obstacle) return false;
+    if (seat(j).obstacle != other.seat(j).obstacle || seat(j).stop != other.seat(j).stop ||
+        seat(j).middle != other.seat(j).middle)
+      return false;
   return couplings() == other.couplings();
 }
 

@@ -2,10 +2,13 @@
 
 #include <cmath>
 
+#include "windlass/rod/dragged_line_arc.hpp"
+
 namespace windlass::contact::spatial {
 
 namespace {
 
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 Attachment sized(int configuration, int tangent, int position, int coordinates) {
@@ -25,6 +28,43 @@ Attachment lying(const double* w) {
   at.x << w[0], w[1];
   at.dx.leftCols(2).setIdentity();
   return at;
+}
+
+/// Displacements along the surface, turned so that the force N + mu d of a cylinder that slips does no work on them.
+/// @param d  components of the direction of slip along the chart's tangents
+SmallMatrix slipping(const SmallMatrix& along, const obstacle::Chart& here, double friction, const Vector2d& d) {
+  SmallMatrix tested = along;
+  tested.leftCols<2>() -= friction * here.normal * d.transpose();
+  return tested;
+}
+
+/// Derivatives of those displacements' work on a force f, of rows k and columns l: −mu [∂d_k/∂w_l N + d_k ∂N/∂w_l]·f.
+void add_slipping(const obstacle::Chart& here, double friction, const Vector2d& d,
+                  const Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, max_coordinates>& by_w,
+                  const SmallVector& f, SmallMatrix& out) {
+  const Vector3d force = f;
+  out.topRows<2>() -= friction * here.normal.dot(force) * by_w;
+  out.topLeftCorner<2, 2>() -= friction * d * here.normal_slope(force).transpose();
+}
+
+/// Direction of slip at a touch, d = (e_z − ω t)/|e_z − ω t|, and its derivatives, along the chart's tangents.
+struct TouchSlip {
+  Vector2d d;
+  Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, max_coordinates> by_w;
+};
+TouchSlip slip_at(const obstacle::Chart& here, const Eigen::Matrix3d& directors, double travel) {
+  const Vector3d v = Vector3d::UnitZ() - travel * directors.col(2);
+  const double size = v.norm();
+  const Vector3d d = v / size;
+  Eigen::Matrix3d turned;  // of the tangent, with increments of half the angle
+  turned << -2.0 * directors.col(1), 2.0 * directors.col(0), Vector3d::Zero();
+  TouchSlip out;
+  out.d = here.tangents.transpose() * d;
+  out.by_w.setZero(2, 5);
+  out.by_w.leftCols<2>() = here.second(d);
+  out.by_w.rightCols<3>() = here.tangents.transpose() *
+                            (Eigen::Matrix3d::Identity() - d * d.transpose()) * (-travel / size) * turned;
+  return out;
 }
 
 rod::Quaternion frame_at(const double* q) { return Eigen::Map<const Eigen::Vector4d>(q); }
@@ -54,19 +94,26 @@ Eigen::Vector2d surface_coordinates(const rod::Quaternion& q, const rod::Quatern
   return {std::atan2(-r(1, 2), r(2, 2)), std::atan2(-r(0, 1), r(0, 0))};
 }
 
-Attachment Touch::attach(Side, const double* w, const Loads&) const {
+Attachment Touch::attach(Side, const double* w, const Loads& loads) const {
   Attachment at = sized(4, 3, 3, tangent());
   const obstacle::Chart here = chart(w);
   at.q = frame_at(w + 2);
   at.dq.rightCols(3).setIdentity();
   at.x = here.r;
   at.dx.leftCols<2>() = here.tangents;
+  if (loads.friction > 0.0 && surface_->slips())
+    at.tested = slipping(at.dx, here, loads.friction,
+                         slip_at(here, rod::directors(frame_at(w + 2)), loads.travel).d);
   return at;
 }
 
-void Touch::curvature(Side, const double* w, const Loads&, const SmallVector&, const SmallVector& f,
+void Touch::curvature(Side, const double* w, const Loads& loads, const SmallVector&, const SmallVector& f,
                       SmallMatrix& out) const {
-  out.topLeftCorner<2, 2>() += chart(w).second(f);
+  const obstacle::Chart here = chart(w);
+  out.topLeftCorner<2, 2>() += here.second(f);
+  if (!(loads.friction > 0.0) || !surface_->slips()) return;
+  const TouchSlip slip = slip_at(here, rod::directors(frame_at(w + 2)), loads.travel);
+  add_slipping(here, loads.friction, slip.d, slip.by_w, f, out);
 }
 
 Joint::Location Touch::location(const double* w, const SmallVector&, const SmallVector&) const {
@@ -91,7 +138,7 @@ void Touch::retract(const double* w, const double* dw, double* out) const {
       rod::retract(Eigen::Map<const Eigen::Vector4d>(w + 2), Vector3d(dw + 2));
 }
 
-Attachment Edge::attach(Side side, const double* w, const Loads&) const {
+Attachment Edge::attach(Side side, const double* w, const Loads& loads) const {
   constexpr int psi = 2;  // place of ψ among the coordinates
   if (side == line_) return lying(w);
   Attachment at = sized(4, 3, 3, tangent());
@@ -103,12 +150,39 @@ Attachment Edge::attach(Side side, const double* w, const Loads&) const {
   at.dq.col(psi + 1) = spins.col(2);
   at.x = here.r;
   at.dx.leftCols<2>() = here.tangents;
+  if (loads.friction > 0.0 && surface_->slips())
+    at.tested = slipping(at.dx, here, loads.friction, rod::slip(w[psi], loads.travel).d);
   return at;
 }
 
-void Edge::curvature(Side side, const double* w, const Loads&, const SmallVector& g_q, const SmallVector& f,
+std::optional<Joint::Drag> Edge::drag(Side side, const double* w, const Loads& loads,
+                                      const SmallVector& g) const {
+  if (side != line_ || !(loads.friction > 0.0) || !surface_->slips()) return std::nullopt;
+  // n₁ = ψ'(m₃ − 3B sin ψ cos ψ) of rod/line_contact.cpp, the moments ±g: of f = N·(n_left − n_right) the line's share.
+  const double moment_sign = side == Side::left ? 1.0 : -1.0, c = std::cos(w[2]), s = std::sin(w[2]);
+  const double bend = moment_sign * g(0) / stiffness_, twisting = moment_sign * g(1);
+  const double n1 = bend * (twisting - 3.0 * stiffness_ * s * c);
+  const double by_psi = -3.0 * stiffness_ * bend * (c * c - s * s);
+  const Vector2d by_g(moment_sign / stiffness_ * (twisting - 3.0 * stiffness_ * s * c), moment_sign * bend);
+  const rod::Slip slip = rod::slip(w[2], loads.travel);
+  const double mu = -loads.friction * moment_sign;
+  Drag out{SmallVector::Zero(4), SmallMatrix::Zero(4, 4), SmallMatrix::Zero(4, 2)};
+  out.value.head<2>() = mu * n1 * slip.d;
+  out.by_w.block<2, 1>(0, 2) = mu * (by_psi * slip.d + n1 * slip.by_psi);
+  out.by_gradient.topRows<2>() = mu * slip.d * by_g.transpose();
+  return out;
+}
+
+void Edge::curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
                      SmallMatrix& out) const {
   if (side == line_) return;
+  if (loads.friction > 0.0 && surface_->slips()) {
+    const rod::Slip slip = rod::slip(w[2], loads.travel);
+    Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, max_coordinates> by_w;
+    by_w.setZero(2, 4);
+    by_w.col(2) = slip.by_psi;
+    add_slipping(chart(w), loads.friction, slip.d, by_w, f, out);
+  }
   constexpr int i = 2;  // place of ψ among the coordinates
   const double cp = std::cos(w[2]), sp = std::sin(w[2]), cc = std::cos(w[3]), sc = std::sin(w[3]);
   const Vector3d g = surface_->curvature() * g_q;
@@ -198,6 +272,40 @@ void Pressed::place_curvature(const double* w, const Vector3d& f, SmallMatrix& o
 }
 
 void Pressed::adopt(const Place& place, double* w) const { Edge(Side::left, 1.0, surface_).adopt(place, w); }
+
+Stopped::Stopped(SurfacePointer line, SurfacePointer plate, bool in_the_middle)
+    : line_(std::move(line)),
+      plate_(std::move(plate)),
+      height_(plate_->chart(Vector2d::Zero()).r(2)),
+      in_the_middle_(in_the_middle) {}
+
+Attachment Stopped::attach(Side, const double* w, const Loads&) const {
+  Attachment at = sized(2, 2, 2, tangent());
+  at.q << w[1], w[2];
+  at.dq.rightCols(2).setIdentity();
+  at.x << w[0], height_;
+  at.dx(0, 0) = 1.0;
+  return at;
+}
+
+Joint::Location Stopped::location(const double* w, const SmallVector&, const SmallVector&) const {
+  Location c;
+  c.value = std::sin(w[1]);
+  c.by_w = SmallVector::Zero(tangent());
+  c.by_w(1) = std::cos(w[1]);
+  return c;
+}
+
+Vector2d Stopped::on_surface(const double* w) const {
+  const Vector2d on_line(w[0], height_);
+  return plate_->coordinates(line_->chart(on_line).r, line_->turn(on_line));
+}
+
+void Stopped::adopt(const Place& place, double* w) const {
+  double all[4];
+  Edge(Side::left, 1.0, line_).adopt(place, all);
+  w[0] = all[0], w[1] = 0.0, w[2] = all[3];
+}
 
 Attachment End::attach(Side, const double* w, const Loads& loads) const {
   Attachment at = sized(4, 3, 3, tangent());

@@ -78,6 +78,23 @@ std::optional<Least> dip_beside(const Profile& profile, const Piece& piece, cons
   return std::nullopt;
 }
 
+/// Beyond its last contact nothing pushes a rod round a cylinder out of the plane of its pull and its tangent: behind a touch of a
+/// plate that tail lies flat in the plate, with neither gap nor curvature there (PHYSICS, "Steady sliding").
+bool lies_flat(const Profile& profile, int link, int obstacle) {
+  if (profile.pieces[link].stretch != Stretch::tail || !profile.obstacles[0].slips() || obstacle == 0)
+    return false;
+  return std::any_of(profile.contacts.begin(), profile.contacts.end(), [&](const Contact& c) {
+    return c.obstacle == obstacle && (c.joint == link || c.joint == link + 1);
+  });
+}
+
+/// Does a tail beside this touch lie flat in its obstacle?
+bool before_flat_tail(const Profile& profile, const Contact& c) {
+  const int count = static_cast<int>(profile.pieces.size());
+  return c.coupling < 0 && ((c.joint > 0 && lies_flat(profile, c.joint - 1, c.obstacle)) ||
+                            (c.joint < count && lies_flat(profile, c.joint, c.obstacle)));
+}
+
 /// Least local minimum of the gap to an obstacle inside a free arc. Next to a contact the gap is flat and its samples are
 /// rounding; a minimum must stand out by more than that.
 ContactEvent graze(const Profile& profile, int obstacle, int link, bool starts_at_mid) {
@@ -318,7 +335,8 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
     if (piece.stretch == Stretch::line)
       events.push_back({Kind::buckling, i, piece.buckling.value_or(far), piece.s(0)});
     else
-      for (int o = 0; o < profile.obstacles.size(); ++o) events.push_back(graze(profile, o, i, at_mid));
+      for (int o = 0; o < profile.obstacles.size(); ++o)
+        if (!lies_flat(profile, i, o)) events.push_back(graze(profile, o, i, at_mid));
   }
   const std::vector<chain::Coupling> couplings = topology.couplings();
   for (const Contact& c : profile.contacts) {
@@ -328,7 +346,7 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
     events.back().redrawn = strands.inside_line(c.joint);
     if (c.reaction) events.push_back(reaction_event(profile, c));
     // Of a line between strands g'' = 0.
-    if (c.edge || strands.line_of(c.joint) >= 0) continue;
+    if (c.edge || strands.line_of(c.joint) >= 0 || before_flat_tail(profile, c)) continue;
     const double bend = c.gap_curvature - least_curvature_at(profile, c);
     events.push_back({Kind::curvature, c.joint, about_to_meet(profile, c) ? 1.0 : bend, c.s});
   }

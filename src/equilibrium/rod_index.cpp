@@ -10,6 +10,7 @@ using contact::Loads;
 
 int RodProblem::index(const Vector& x, const Vector& p) {
   const Loads at = loads(p);
+  if (dragged()) return -1;  // no second variation: the load has no potential
   // Where a contact carries nothing, or an arc has no length left, the second variation is not that of a rod held by
   // these contacts: the count of the last sound point stands until the event is located.
   if (index_ < 0 || !degenerate(x, at)) {
@@ -26,7 +27,7 @@ int RodProblem::index(const Vector& x, const Vector& p) {
 }
 
 int RodProblem::breaking_index(const Vector& x, const Vector& p) {
-  if (!topology_.half) return -1;
+  if (!topology_.half || dragged()) return -1;
   const Loads at = loads(p);
   if (breaking_index_ >= 0 && degenerate(x, at)) return breaking_index_;
   return breaking_index_ = count(x, p, contact::Parity::odd, breaking_index_);
@@ -67,6 +68,7 @@ int RodProblem::count(const Vector& x, const Vector& p, contact::Parity parity, 
 }
 
 int RodProblem::total_index(const Vector& x, const Vector& p) {
+  if (dragged()) return -1;
   // At an event where a contact carries nothing the last sound point's count stands here, too.
   const bool known = index_ >= 0 && (!topology_.half || breaking_index_ >= 0);
   if (known && degenerate(x, loads(p))) return index_ + (topology_.half ? breaking_index_ : 0);

@@ -29,6 +29,7 @@ double Loads::*field_of(const std::string& key) {
   if (key == "ends.shortening") return &Loads::shortening;
   if (key == "ends.twist") return &Loads::twist;
   if (key == "rod.radius") return &Loads::radius;
+  if (key == "cylinder.friction") return &Loads::friction;
   return nullptr;
 }
 
@@ -43,6 +44,7 @@ Loads loads_of(const scene::Scene& scene) {
   loads.shortening = scene.ends.shortening.value_or(0.0);
   loads.twist = scene.ends.twist;
   loads.radius = scene.strand_radius();
+  loads.friction = scene.dragging_friction();
   return loads;
 }
 
@@ -64,6 +66,8 @@ chain::RodKind rod_of(const scene::Scene& scene, bool spatial) {
   rod.infinite = scene.rod.infinite();
   rod.strut = !scene.has_cylinder;
   rod.obstacles = obstacle::obstacles_of(scene);
+  if (scene.slides())
+    rod.travel = scene.ends.travel == scene::Travel::free ? chain::Travel::free : chain::Travel::blocked;
   constexpr double twentieth = 0.05;  // a capstan's rod has a length of some 20 ρ
   if (rod.strut) rod.unit_length = twentieth * scene.rod.length;
   rod.under_thrust = !scene.ends.shortening.has_value();
@@ -116,6 +120,7 @@ Loads RodProblem::loads(const Vector& p) {
   Loads loads = base_;
   for (std::size_t k = 0; k < keys_.size(); ++k)
     if (fields_[k]) loads.*fields_[k] = p(k);
+  if (!scene_.slides()) loads.friction = 0.0;  // of a cylinder that stands it only enters F0
   if (scene_.has_cylinder && !(loads.tension > 0.0)) throw std::domain_error("the tension is not positive");
   return loads;
 }

@@ -39,7 +39,7 @@ bool turns_lines(const chain::Chain& chain, const Vector& x, const Vector& dx, d
 bool RodProblem::slides_freely(const Vector& x, const Vector& p) {
   // What resists sliding, over the pull; below some 1e-7 rounding moves the rod along itself.
   constexpr double resolved = 1e-6, lost = 1e-7;
-  if (topology_.half || rod_.strut || rod_.infinite || !chain_->holds_slide()) return false;
+  if (topology_.half || rod_.strut || dragged() || rod_.infinite || !chain_->holds_slide()) return false;
   const Loads at = loads(p);
   const int last = chain_->link_count() - 1;
   const double tail = std::min(chain_->length(x, at, 0), chain_->length(x, at, last));
@@ -90,7 +90,7 @@ bool RodProblem::settle(Vector& x, const Vector& p) {
 std::string RodProblem::unsettled(const Vector& x, const Vector& dx) const {
   constexpr double nothing = 1e-8;  // what rounding leaves of a force in a mode of unit size
   const double visible = nothing * dx.cwiseAbs().maxCoeff();
-  if (chain_->holds_slide() && std::abs(dx(chain_->slide_row())) >= visible)
+  if (!dragged() && chain_->holds_slide() && std::abs(dx(chain_->slide_row())) >= visible)
     return "the rod would have to be held against sliding along itself";
   if (has_hinges(*chain_) && turns_lines(*chain_, x, dx, visible)) return leaves_clamp;
   return {};

@@ -26,7 +26,8 @@ void choose_tails(std::vector<ArcMesh>& meshes, const Topology& topology, const 
                   const contact::Loads& loads, const std::vector<double>& s) {
   constexpr int gap_elements = 8;
   const std::vector<Stretch>& kinds = topology.stretches;
-  const bool admitted = !rod.clamped() && !rod.strut && !rod.infinite && rod.isotropic_straight();
+  const bool admitted = !rod.clamped() && !rod.strut && !rod.infinite && rod.isotropic_straight() &&
+                        rod.travel == chain::Travel::none;  // a formula knows no change of its pull
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     const bool leftward = i == 0 && !topology.half, tail = kinds[i] == Stretch::tail;
     const bool leaves_line = tail && kinds.size() > 1 && kinds[leftward ? 1 : i - 1] == Stretch::line;

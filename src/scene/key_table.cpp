@@ -71,6 +71,9 @@ Key end_of_rod(std::string_view name, std::string_view help) {
           .set_text = set_end<Member>};
 }
 
+constexpr std::string_view sliding_words[] = {"none", "up"};
+constexpr std::string_view travel_words[] = {"free", "blocked"};
+constexpr std::string_view side_words[] = {"above", "below"};
 constexpr std::string_view knot_words[] = {"none", "clove_hitch"};
 constexpr std::string_view model_words[] = {"auto", "closed_form", "planar", "kirchhoff"};
 constexpr std::string_view symmetry_words[] = {"auto", "half_turn", "none"};
@@ -187,6 +190,9 @@ std::vector<Key> load_keys() {
   return {
       derived("cylinder.radius", Dimension::length, positive, "radius R; dimensionless: 1 - rod.radius"),
       friction,
+      word<&Scene::motion, &Motion::sliding, sliding_words>(
+          "cylinder.sliding",
+          "up: the cylinder moves along +e_z and slips everywhere on the rod, which a plate holds back"),
       parameter<&Scene::load, &Load::tension>("load.tension", Dimension::force, positive,
                                               "pull T on each end (with a cylinder)"),
       parameter<&Scene::load, &Load::angle>("load.angle", Dimension::angle, positive,
@@ -202,7 +208,45 @@ std::vector<Key> load_keys() {
                                                  "approach of a strut's ends, fraction of the length"),
       parameter<&Scene::ends, &Ends::twist>("ends.twist", Dimension::angle, any,
                                             "rotation of one strut end about the axis against the other"),
+      word<&Scene::ends, &Ends::travel, travel_words>(
+          "ends.travel",
+          "while sliding: equal pulls, the rod runs along itself; or no travel, the pulls differ as needed"),
   };
+}
+
+Plate& the_plate(Scene& scene) { return scene.plate ? *scene.plate : scene.plate.emplace(); }
+
+std::vector<Key> plate_keys() {
+  Key height{.name = "plate.height",
+             .dimension = Dimension::length,
+             .range = any,
+             .choices = {},
+             .help = "of a plate, a plane z = height that stops the rod; needs a cylinder",
+             .get = [](const Scene& scene) -> std::optional<double> {
+               return scene.plate ? std::optional(scene.plate->height) : std::nullopt;
+             },
+             .set = [](Scene& scene, double value) { the_plate(scene).height = value; }};
+  Key radius{.name = "plate.outer_radius",
+             .dimension = Dimension::length,
+             .range = {.low = 0.0, .open_low = true, .allows_infinity = true},
+             .choices = {},
+             .help = "of the plate, which has the cylinder's hole; \"inf\": it reaches beyond the rod",
+             .get = [](const Scene& scene) -> std::optional<double> {
+               return scene.plate ? std::optional(scene.plate->outer_radius) : std::nullopt;
+             },
+             .set = [](Scene& scene, double value) { the_plate(scene).outer_radius = value; }};
+  Key side{.name = "plate.side",
+           .kind = ValueKind::text,
+           .range = any,
+           .choices = {std::begin(side_words), std::end(side_words)},
+           .help = "where the plate is, seen from the rod",
+           .get_text = [](const Scene& scene) -> std::string {
+             return scene.plate ? std::string(side_words[static_cast<std::size_t>(scene.plate->side)]) : "";
+           },
+           .set_text = [](Scene& scene, const std::string& word) {
+             the_plate(scene).side = word == side_words[0] ? PlateSide::above : PlateSide::below;
+           }};
+  return {height, side, radius};
 }
 
 std::vector<Key> knot_keys() {
@@ -262,7 +306,7 @@ std::vector<Key> method_keys() {
 std::span<const Key> keys() {
   static const std::vector<Key> table = [] {
     std::vector<Key> all;
-    for (auto&& part : {top_level_keys(), rod_keys(), load_keys(), knot_keys(), method_keys()})
+    for (auto&& part : {top_level_keys(), rod_keys(), load_keys(), plate_keys(), knot_keys(), method_keys()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();

@@ -23,10 +23,7 @@ constexpr Planned planned[] = {
     {"rod.extensible", "false", "stretch"},
     {"rod.axial_stiffness", "\"inf\"", "stretch"},
     {"rod.weight", "", "weight"},
-    {"cylinder.sliding", "\"none\"", "sliding"},
-    {"cylinder.friction_couple", "true", "sliding"},
-    {"ends.travel", "\"free\"", "sliding"},
-    {"plate", "", "a plate"},
+    {"cylinder.friction_couple", "true", "the friction's couple"},
 };
 
 bool belongs_to(std::string_view key, std::string_view name) {
@@ -62,9 +59,6 @@ void settle_planned(Document& document) {
   std::erase_if(document.entries, [](const Entry& entry) { return find_planned(entry.key); });
   for (auto table = document.tables.begin(); table != document.tables.end();)
     table = belongs_to("knot", table->first) ? document.tables.erase(table) : std::next(table);
-  if (const auto table = document.tables.find("plate"); table != document.tables.end())
-    throw SceneError(document.place_of_table("plate") +
-                     ": [plate]: a plate is not built yet; must be left out");
 }
 
 }  // namespace windlass::scene

@@ -30,6 +30,7 @@ class Resolver {
     check_names(document_);
     scene_.name = name;
     scene_.has_cylinder = document_.tables.contains("cylinder");
+    if (document_.tables.contains("plate")) scene_.plate.emplace();
     read_continuation_parameter();
     find_units();
     for (const Entry& entry : document_.entries) fill(entry);

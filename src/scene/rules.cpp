@@ -114,6 +114,40 @@ void check_knot(const Document& document, const Scene& scene) {
     forbid(document, "continuation.parameter", "must not be load.angle with knot.kind = \"clove_hitch\"");
 }
 
+/// Plates, and cylinders that slide.
+void check_sliding(const Document& document, const Scene& scene) {
+  const auto refuse = [&](const std::string& key, const std::string& why) {
+    if (const Entry* entry = document.find(key)) throw SceneError(entry->prefix() + why);
+    const std::string table = key.substr(0, key.find('.'));
+    throw SceneError(fmt::format("{}: {}: {}", document.place_of_table(table), key, why));
+  };
+  if (scene.plate) {
+    if (!scene.has_cylinder) refuse("plate.height", "needs a [cylinder]");
+    if (scene.plate->outer_radius < 1.0)
+      refuse("plate.outer_radius", "must be >= 1: a smaller plate does not reach the rod on the cylinder");
+    if (!std::isinf(scene.plate->outer_radius))
+      refuse("plate.outer_radius", "a plate's outer edge is not built yet; must be \"inf\"");
+    if (scene.rod.infinite()) refuse("rod.length", "must be finite with a plate");
+    if (scene.knot.tied()) refuse("plate.height", "must not be given with a knot: not built yet");
+    if (scene.model.symmetry == Symmetry::half_turn)
+      refuse("model.symmetry", "must not be \"half_turn\": a plate is not its own image under the half-turn");
+  }
+  if (!scene.slides()) return;
+  if (!(scene.friction.value_or(0.0) > 0.0))
+    refuse("cylinder.friction", "must be > 0 with cylinder.sliding = \"up\"");
+  if (!scene.plate)
+    refuse("cylinder.sliding", "needs a [plate], or the cylinder would carry the rod away");
+  if (scene.plate->side != PlateSide::above)
+    refuse("plate.side", "must be \"above\" with cylinder.sliding = \"up\", or the cylinder would carry the rod away");
+  if (scene.self_contact)
+    refuse("rod.self_contact", "must be false with cylinder.sliding = \"up\": the friction of rods that touch themselves is not built yet");
+  if (!scene.rod.isotropic_straight())
+    refuse("cylinder.sliding", "needs an isotropic, naturally straight rod");
+  for (const char* end : {"ends.kind", "ends.left", "ends.right"})
+    if (scene.ends.left_kind() != EndKind::moment_free || scene.ends.right_kind() != EndKind::moment_free)
+      forbid(document, end, "must be \"moment_free\" with cylinder.sliding = \"up\": other ends are not built yet");
+}
+
 void check_continuation(const Document& document, const Scene& scene, bool restart) {
   const Continuation& c = *scene.continuation;
   const bool of_capstan = c.parameter == "load.tension" || c.parameter == "load.angle";
@@ -156,6 +190,7 @@ void check_rules(const Document& document, const Scene& scene, bool restart) {
   check_ends(document, scene);
   check_self_contact(document, scene);
   check_knot(document, scene);
+  check_sliding(document, scene);
   if (scene.continuation) check_continuation(document, scene, restart);
   for (const char c : {'/', '\0'})
     if (scene.name.find(c) != std::string::npos || scene.name.empty() || scene.name.front() == '.')

@@ -31,6 +31,8 @@ struct ArcPoint {
   const double* interior = nullptr;  ///< configurations between, interior_nodes() × ambient()
   const double* n = nullptr;         ///< conserved force; forces() numbers
   double length = 0.0;               ///< ℓ > 0
+  double friction = 0.0;             ///< mu of what the arc slips on; dragged arcs only
+  double travel = 0.0;               ///< ω: the rod runs along itself at ω times the speed of what slips on it
 };
 
 /// Samples of an arc at all its Lagrange points, ends included.
@@ -41,6 +43,7 @@ struct ArcSamples {
   Eigen::MatrixXd displacement;  ///< ∫₀ d ds; forces × N
   Eigen::MatrixXd slope;         ///< dq/ds in the tangent basis; tangent × N (empty: closed-form arcs)
   std::vector<int> nodes = {};   ///< indices of the element ends among the N samples
+  Eigen::MatrixXd force = {};    ///< n along the arc; forces × N (empty: conserved)
 };
 
 /// An interior configuration that an elimination holds by a spring, as the arc held at its ends alone would not resist:
@@ -60,8 +63,13 @@ class Arc {
   virtual int interior_nodes() const { return 0; }
   int interior_ambient() const { return interior_nodes() * ambient(); }
   int interior_tangent() const { return interior_nodes() * tangent(); }
-  /// Order of the ends: q_a (tangent), q_b (tangent), n (forces), ℓ (1).
-  int ends() const { return 2 * tangent() + forces() + 1; }
+  /// Components of n that a load along the arc changes: n is then the force at its start. Such a load has no potential, the
+  /// condensed matrix is not symmetric, and S only names the place of what the arc answers.
+  virtual int carried() const { return 0; }
+  /// Order of the ends: q_a (tangent), q_b (tangent), n (forces), ℓ (1); of an arc that changes n as many more as it
+  /// changes: in a gradient n(ℓ) − n(0), among the unknowns ω first, the others nothing.
+  int ends() const { return 2 * tangent() + forces() + 1 + carried(); }
+  int length_end() const { return 2 * tangent() + forces(); }
 
   /// Gradient of the action. `interior` (interior_tangent numbers) is overwritten.
   virtual void gradient(const ArcPoint& at, double* interior, EndsVector& ends) const = 0;
@@ -74,9 +82,16 @@ class Arc {
   virtual void reduce(double* rhs_interior, EndsVector& rhs_ends) const {
     (void)rhs_interior, (void)rhs_ends;
   }
+  /// The same with the transpose of a matrix that is not symmetric.
+  virtual void reduce_transposed(double* rhs_interior, EndsVector& rhs_ends) const {
+    reduce(rhs_interior, rhs_ends);
+  }
   /// Back substitution: `interior` comes from reduce() and leaves as the solution, given the solution at the ends.
   virtual void expand(double* interior, const EndsVector& solution_ends) const {
     (void)interior, (void)solution_ends;
+  }
+  virtual void expand_transposed(double* interior, const EndsVector& solution_ends) const {
+    expand(interior, solution_ends);
   }
   /// Negative pivots among the eliminated interior unknowns at the last factor().
   virtual int negative_pivots() const { return 0; }

@@ -35,6 +35,7 @@ class CollocationArc final : public Arc {
   int elements() const override { return static_cast<int>(mesh_.size()) - 1; }
   int stages() const override { return table_.stages; }
   std::vector<double> mesh() const override { return mesh_; }
+  const std::vector<double>& nodes() const { return mesh_; }
 
   void gradient(const ArcPoint& at, double* interior, EndsVector& ends) const override;
   void factor(const ArcPoint& at, EndsMatrix& condensed) override;

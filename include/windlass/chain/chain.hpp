@@ -27,6 +27,14 @@ struct Link {
   int pull = 0;      ///< 0: n unknown; ±1: n is the dead pull of the right end / minus the left one's
 };
 
+/// What lets a rod rest on a cylinder that slips along it (PHYSICS, "Steady sliding"): an unknown in the place of the force
+/// that holds the rod against sliding along itself, for that slide now costs friction.
+enum class Travel {
+  none,     ///< the cylinder stands
+  blocked,  ///< τ: the right end is pulled by T + τ, the left one by T − τ
+  free      ///< ω: equal pulls, the rod runs along itself
+};
+
 /// Layout of a chain's unknowns.
 ///
 /// State x (ambient): for each joint its coordinates and, where it locates itself, its arclength s; where sliding is held,
@@ -58,6 +66,7 @@ class Chain {
     bool along = false;   ///< translation along e_x (both ends of a free rod under a dead thrust)
     bool spin = false;    ///< turn of every section about its tangent
     bool slide = false;
+    Travel travel = Travel::none;
     std::optional<double> phase;  ///< turn of the rod by α about e_x, with a spin of phase·α
   };
 
@@ -114,7 +123,12 @@ class Chain {
   void let_slide(bool freely) { slides_ = freely && slide_at_ >= 0; }
   bool slides() const { return slides_; }
   double slide_place(const VectorXd& x) const { return x(slide_at_); }
-  double holding_force(const VectorXd& x) const { return holds_slide() ? x(slide_at_ + 1) : 0.0; }
+  double holding_force(const VectorXd& x) const {
+    return holds_slide() && gauges_.travel == Travel::none ? x(slide_at_ + 1) : 0.0;
+  }
+  Travel travel() const { return gauges_.travel; }
+  /// τ or ω; see Travel.
+  double travelled(const VectorXd& x) const { return gauges_.travel == Travel::none ? 0.0 : x(slide_at_ + 1); }
   /// Length of a link: the difference of its ends' arclengths, without loss of digits where they are close.
   double length(const VectorXd& x, const Loads& loads, int link) const;
   /// Row of the gauge, and place of λ in an increment.
@@ -144,8 +158,10 @@ class Chain {
     contact::Attachment left, right;
     VectorXd n;
     const double* interior = nullptr;
-    double length = 0.0;
-    bvp::ArcPoint point() const { return {left.q.data(), right.q.data(), interior, n.data(), length}; }
+    double length = 0.0, friction = 0.0, travel = 0.0;
+    bvp::ArcPoint point() const {
+      return {left.q.data(), right.q.data(), interior, n.data(), length, friction, travel};
+    }
   };
   /// @throws std::domain_error if a tail's length is not positive.
   Placed place(const VectorXd& x, const Loads& loads, int link) const;
@@ -239,6 +255,22 @@ class Chain {
   /// Motion of the phase gauge as an increment: dense block, then interiors.
   VectorXd phase_motion(Purpose purpose, const Numbering& numbering, const VectorXd& x,
                         const Loads& loads) const;
+  /// The loads with ω, where it is an unknown.
+  Loads loaded(const VectorXd& x, const Loads& loads) const {
+    Loads all = loads;
+    if (gauges_.travel == Travel::free) all.travel = x(slide_at_ + 1);
+    return all;
+  }
+  /// n where an arc ends.
+  static VectorXd force_at_end(const Arc& arc, const VectorXd& n, const bvp::EndsVector& gradient);
+  /// Adds what joints take of a line's own normal force; see Joint::drag.
+  void add_drag(const VectorXd& x, const Loads& loads, int link, VectorXd& f) const;
+  /// Change of a given pull's n with τ; zero for other links.
+  VectorXd force_by_travel(const Loads& loads, int link) const;
+  /// Adds the change with τ or ω of what a joint takes from the arc on one side to the travel's column.
+  void add_travel(const VectorXd& x, const Loads& loads, int link, contact::Side side,
+                  const contact::SmallVector& gradient, const contact::SmallVector& force,
+                  MatrixXd& dense) const;
   contact::Attachment attachment(Purpose purpose, const VectorXd& x, const Loads& loads, int joint,
                                  contact::Side side) const;
   Local local(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads,
@@ -329,7 +361,7 @@ class Chain {
   void reduce(VectorXd& f, bool transposed) const;
   void expand(VectorXd& f, bool transposed) const;
   /// K⁻¹ f on the interiors alone, given a vector already reduced; the dense part is zero.
-  VectorXd interior_solve(VectorXd reduced) const;
+  VectorXd interior_solve(VectorXd reduced, bool transposed) const;
 
   std::vector<std::unique_ptr<Joint>> joints_;
   std::vector<double> fixed_s_;

@@ -27,6 +27,9 @@ struct Seat {
   /// Touches with the same number stand for a line between strands, the second strand's with the opposite one; 0: no line, unless
   /// both strands lie on obstacles between touches that are next to each other.
   int line = 0;
+  /// Of a place inside a line contact: the obstacle that stops it there, too (a plate); −1: none.
+  int stop = -1;
+  bool middle = false;  ///< of a stop: at s = 0, see contact::spatial::Stopped
   bool operator==(const Seat& other) const = default;
 };
 
@@ -45,6 +48,8 @@ struct Topology {
 
   Seat seat(int joint) const { return on.empty() ? Seat{} : on[joint]; }
   int obstacle(int joint) const { return seat(joint).obstacle; }
+  /// What a contact joint is pushed by: where a line is stopped, what stops it.
+  int pushed_by(int joint) const { return seat(joint).stop >= 0 ? seat(joint).stop : seat(joint).obstacle; }
   std::vector<Coupling> couplings() const;
   /// Does a link begin or end where strands touch?
   bool beside_strand(int link) const { return seat(link).strand != 0 || seat(link + 1).strand != 0; }
@@ -68,6 +73,7 @@ struct RodKind {
   bool infinite = false;      ///< closed-form tails
   bool strut = false;         ///< no cylinder, the ends on e_x
   bool under_thrust = false;  ///< strut: thrust given, else shortening
+  Travel travel = Travel::none;  ///< of a rod on a cylinder that slips along it
   double pull_angle =
       NAN;  ///< between the pulls, for a rod that they leave free to turn [rad]; NaN: it varies
   double bending_stiffness = 1.0;  ///< B, of bending in the plane that the flat rod lies in

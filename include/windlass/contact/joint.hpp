@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -31,6 +32,8 @@ struct Loads {
   double shortening = 0.0;   ///< strut: end shortening / length
   double twist = 0.0;        ///< strut: relative end rotation about e_x [rad]
   double radius = 0.0;       ///< of the rod: its strands keep 2r apart [ρ]
+  double friction = 0.0;     ///< mu of the cylinder that slips along the rod, towards +e_z; 0: it stands
+  double travel = 0.0;       ///< ω: the rod runs along itself at ω times the cylinder's speed
 };
 
 enum class Side { left, right };  ///< the arc that ends here, the arc that starts here
@@ -43,6 +46,10 @@ struct Attachment {
   SmallMatrix dq;  ///< tangent × coordinates
   SmallVector x;   ///< position conjugate to the arc's n
   SmallMatrix dx;  ///< forces × coordinates
+  /// Displacements that the contact's force does no work on, which balance is tested with: normal to e_r + mu d where a
+  /// cylinder slips. forces × coordinates; empty: dx.
+  SmallMatrix tested = {};
+  const SmallMatrix& test() const { return tested.size() > 0 ? tested : dx; }
 };
 
 /// State of a rod at one place, from which a joint can take its coordinates.
@@ -75,6 +82,19 @@ class Joint {
   virtual void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q,
                          const SmallVector& f, SmallMatrix& out) const {
     (void)side, (void)w, (void)loads, (void)g_q, (void)f, (void)out;
+  }
+
+  /// What the friction at the edge of a line contact takes of the line's own force along the normal, which is not conjugate
+  /// to any coordinate: a term of the balance equations, and its derivatives.
+  struct Drag {
+    SmallVector value;        ///< tangent
+    SmallMatrix by_w;         ///< tangent × tangent
+    SmallMatrix by_gradient;  ///< tangent × tangent of the line
+  };
+  /// @param g  action gradient of the line with respect to its configuration here
+  virtual std::optional<Drag> drag(Side side, const double* w, const Loads& loads,
+                                   const SmallVector& g) const {
+    return (void)side, (void)w, (void)loads, (void)g, std::nullopt;
   }
 
   /// Degrees of freedom that move a flat rod out of its plane z = 0: zero, by symmetry, as long as nothing pushes.

@@ -20,6 +20,7 @@ class Cylinder final : public Surface {
   double turn(const Vector2d& u) const override { return u(0); }
   Quaternion base_frame(const Vector2d& u) const override;
   double curvature() const override { return 1.0; }
+  bool slips() const override { return true; }
   bool keeps_flat() const override { return true; }
   bool endless_along_x() const override { return false; }
 

@@ -23,7 +23,7 @@ struct Chart {
   Vector2d normal_slope(const Vector3d& f) const { return bend * (tangents.transpose() * f); }  ///< f·∂N/∂u_i
 };
 
-/// One rigid, frictionless obstacle that can be developed into a plane.
+/// One rigid obstacle that can be developed into a plane.
 ///
 /// The centre line stays where gap(r) >= 0; a contact force λ >= 0 pushes it along N = ∇gap. Its chart is isometric, the
 /// lines of principal curvature first: |∂X/∂u_i| = 1, N = ∂X/∂u₀ × ∂X/∂u₁, ∂²X/∂u_i∂u_j = −h_ij N, ∂N/∂u_i = h_ij ∂X/∂u_j,
@@ -47,6 +47,9 @@ class Surface {
   virtual Quaternion base_frame(const Vector2d& u) const = 0;
   /// Normal curvature along u₀, h₀₀ [1/ρ]; along u₁ there is none.
   virtual double curvature() const = 0;
+
+  /// May it move along +e_z while the rod stands, so that it slips along the rod (Loads::friction)?
+  virtual bool slips() const { return false; }
 
   /// Is it its own mirror image under z → −z? A flat rod then stays flat on it.
   virtual bool keeps_flat() const = 0;

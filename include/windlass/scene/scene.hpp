@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,9 @@ namespace windlass::scene {
 enum class EndKind { moment_free, clamped, pinned };
 enum class ModelKind { automatic, closed_form, planar, kirchhoff };
 enum class Symmetry { automatic, half_turn, none };
+enum class Sliding { none, up };
+enum class Travel { free, blocked };
+enum class PlateSide { above, below };
 
 struct Rod {
   double bending_stiffness = 1.0;    ///< EI1 [EI]; the unit of stiffness, 1 in a dimensionless capstan
@@ -44,6 +48,22 @@ struct Wall {
   bool operator==(const Wall&) const = default;
 };
 
+/// A stopper, a plane z = height: the centre line stays on one side of it.
+struct Plate {
+  double height = 0.0;                  ///< [ρ]
+  PlateSide side = PlateSide::above;    ///< where the plate is, seen from the rod
+  double outer_radius = HUGE_VAL;       ///< [ρ]
+
+  bool operator==(const Plate&) const = default;
+};
+
+/// How the cylinder moves.
+struct Motion {
+  Sliding sliding = Sliding::none;  ///< along its axis, slipping everywhere on the rod
+
+  bool operator==(const Motion&) const = default;
+};
+
 struct Load {
   double tension = 1.0;          ///< T [EI/ρ²], > 0 with a cylinder
   double angle = 0.0;            ///< phi, the capstan angle [rad], > 0
@@ -59,6 +79,7 @@ struct Ends {
   EndKind right_kind() const { return right.value_or(kind); }
   std::optional<double> shortening;  ///< strut only: end shortening / length [-]
   double twist = 0.0;                ///< strut only: relative end rotation about the axis [rad]
+  Travel travel = Travel::free;      ///< while sliding: equal pulls, or no travel along itself
 
   bool operator==(const Ends&) const = default;
 };
@@ -118,6 +139,9 @@ struct Scene {
   bool self_contact = false;  ///< strands of the rod keep 2r apart
   double strand_radius() const { return self_contact ? rod_radius : 0.0; }
   std::optional<double> friction;  ///< mu
+  Motion motion;                   ///< of the cylinder
+  std::optional<Plate> plate;
+  bool slides() const { return motion.sliding != Sliding::none; }
   std::vector<Wall> walls;         ///< struts only, in the order of the file
   Load load;
   Ends ends;
@@ -142,6 +166,7 @@ struct Scene {
            rod.isotropic_straight();
   }
   bool has_obstacles() const { return has_cylinder || !walls.empty(); }
+  double dragging_friction() const { return slides() ? friction.value_or(0.0) : 0.0; }  ///< mu of what slips
 
   bool operator==(const Scene&) const = default;
 };

@@ -36,6 +36,8 @@ contact::Loads some_loads() {
   loads.half_length = 0.5;
   loads.shortening = 0.2;
   loads.twist = 1.1;
+  loads.friction = 0.4;
+  loads.travel = 0.3;
   return loads;
 }
 
@@ -82,14 +84,45 @@ void check(const char* name, const Joint& joint, std::vector<Side> sides) {
       const Attachment up = attach(moved(joint, w, k, h)), down = attach(moved(joint, w, k, -h));
       BOOST_TEST((increment(down.q, up.q) / (2.0 * h) - VectorXd(here.dq.col(k))).norm() < bound);
       BOOST_TEST((VectorXd(up.x - down.x) / (2.0 * h) - VectorXd(here.dx.col(k))).norm() < bound);
-      const VectorXd change = VectorXd(up.dq.transpose() * g + up.dx.transpose() * f -
-                                       down.dq.transpose() * g - down.dx.transpose() * f) /
+      const VectorXd change = VectorXd(up.dq.transpose() * g + up.test().transpose() * f -
+                                       down.dq.transpose() * g - down.test().transpose() * f) /
                               (2.0 * h);
       // Only the symmetric part is used: joint coordinates are plain numbers, whose second derivatives commute, or
       // frames, which carry no curvature here.
       const SmallMatrix whole = curvature;
       BOOST_TEST((change - VectorXd(whole.col(k))).norm() < bound);
     }
+  }
+}
+
+/// On a cylinder that slips balance is tested with displacements on which its force does no work.
+void check_slip(const char* name, const Joint& joint, Side side, const Eigen::Vector3d& tangent) {
+  const contact::Loads loads = some_loads();
+  const VectorXd w = coordinates(joint);
+  const obstacle::Chart here = joint.chart(w.data());
+  const Eigen::Vector3d d = (Eigen::Vector3d::UnitZ() - loads.travel * tangent).normalized();
+  const Eigen::Vector3d along = here.tangents * (here.tangents.transpose() * d);
+  const SmallVector work = joint.attach(side, w.data(), loads).test().transpose() *
+                           SmallVector(here.normal + loads.friction * along);
+  BOOST_TEST_CONTEXT(name) BOOST_TEST(work.norm() < 1e-14 + loads.friction * (1.0 - along.squaredNorm()));
+}
+
+void check_drag(const Joint& joint, Side side) {
+  const contact::Loads loads = some_loads();
+  const VectorXd w = coordinates(joint);
+  const SmallVector g = SmallVector::LinSpaced(2, 0.7, -0.4);
+  const auto at = [&](const VectorXd& place, const SmallVector& gradient) {
+    return joint.drag(side, place.data(), loads, gradient).value();
+  };
+  for (int k = 0; k < joint.tangent(); ++k) {
+    const SmallVector change = (at(moved(joint, w, k, h), g).value - at(moved(joint, w, k, -h), g).value) / (2.0 * h);
+    BOOST_TEST((change - SmallVector(at(w, g).by_w.col(k))).norm() < bound);
+  }
+  for (int k = 0; k < 2; ++k) {
+    SmallVector up = g, down = g;
+    up(k) += h, down(k) -= h;
+    const SmallVector change = (at(w, up).value - at(w, down).value) / (2.0 * h);
+    BOOST_TEST((change - SmallVector(at(w, g).by_gradient.col(k))).norm() < bound);
   }
 }
 
@@ -115,6 +148,22 @@ void check_location(const char* name, const Joint& joint, int tangent) {
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(joints)
+
+BOOST_AUTO_TEST_CASE(joints_on_a_cylinder_that_slips) {
+  using namespace contact::spatial;
+  const Touch touch;
+  VectorXd w = coordinates(touch);
+  check_slip("touch", touch, Side::left, rod::directors(w.segment<4>(2)).col(2));
+  for (const Side line : {Side::left, Side::right}) {
+    const Edge edge(line, 1.2);
+    check_drag(edge, line);
+    const Side free = line == Side::left ? Side::right : Side::left;
+    BOOST_TEST(!edge.drag(free, w.data(), some_loads(), SmallVector::Zero(3)).has_value());
+    w = coordinates(edge);
+    const obstacle::Chart here = edge.chart(w.data());
+    check_slip("edge", edge, free, here.tangents * Eigen::Vector2d(std::cos(w[2]), std::sin(w[2])));
+  }
+}
 
 BOOST_AUTO_TEST_CASE(attachments_of_planar_joints) {
   using namespace contact::planar;
