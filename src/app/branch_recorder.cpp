@@ -117,7 +117,8 @@ void BranchRecorder::add_eigenvalues(Solution& solution, const Point& point) {
         const std::exception&) {  // at a singular point the spectrum may be out of reach; the index is not
     }
   }
-  stability.index = stability.inertia_index = problem.total_index(point.x, point.p);
+  if (!problem.dragged())
+    stability.index = stability.inertia_index = problem.total_index(point.x, point.p);
   solution.stability = stability;
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   solution.seconds_stability = seconds;

@@ -28,6 +28,7 @@ void adopt_force(const obstacle::Surface* surface, const Profile::At& at, double
 /// @param twist    of a line contact, at its start on entry and at its last interior node on return [rad]
 void adopt_interior(const RodKind& rod, const obstacle::Surface* surface, const Arc& arc,
                     const Profile& profile, double begin, double length, double& twist, double* out) {
+  if (arc.interior_nodes() == 0) return;
   const std::vector<double> mesh = arc.mesh();
   const VectorXd& points = bvp::CollocationTable::get(arc.stages()).lobatto;
   for (int k = 1; k <= arc.interior_nodes(); ++k) {
@@ -52,21 +53,11 @@ void adopt_interior(const RodKind& rod, const obstacle::Surface* surface, const 
 /// are counted from the edge on the left, or the mid-point of a half chain, and the joint on the right agrees.
 void adopt_line(const RodKind& rod, const obstacle::Surface& surface, const Chain& chain, int link,
                 const Profile& profile, double begin, double length, VectorXd& x) {
-  using contact::spatial::Edge;
   const Arc& arc = *chain.link(link).arc;
-  const auto on_line = [&](int joint) {
-    return chain.joint(joint).kind() == contact::JointKind::edge ||
-           dynamic_cast<const contact::spatial::Pressed*>(&chain.joint(joint)) != nullptr;
-  };
-  double twist =
-      Edge::twist(chain.coordinates(x, link));  // a section where the half-turn meets the line has it, too
-  double* interior = chain.interior(x, link);
-  adopt_interior(rod, &surface, arc, profile, begin, length, twist, interior);
-  const auto turns = [](double angle) { return 2.0 * M_PI * std::round(angle / (2.0 * M_PI)); };
-  if (on_line(link + 1)) {
-    double& end = Edge::twist(chain.coordinates(x, link + 1));
-    end += turns(twist - end);
-  }
+  const auto twist_at = [&](int joint) { return chain.coordinates(x, joint) + chain.joint(joint).spin_coordinate(); };
+  double twist = *twist_at(link);
+  adopt_interior(rod, &surface, arc, profile, begin, length, twist, chain.interior(x, link));
+  *twist_at(link + 1) += 2.0 * M_PI * std::round((twist - *twist_at(link + 1)) / (2.0 * M_PI));
 }
 
 void set_planar(Piece& piece, Eigen::Index k, double heading, const Eigen::Vector2d& r,

@@ -166,6 +166,18 @@ std::optional<double> buckling(const Piece& line, const bvp::ArcSamples& samples
   return rod::buckling_margin(surface, rod.material(), samples.q(1, 0), tension, length);
 }
 
+/// ∫ of evenly spaced samples, an odd number of them.
+double simpson(const VectorXd& values, double length) {
+  const Eigen::Index parts = values.size() - 1;
+  double sum = values(0) + values(parts);
+  for (Eigen::Index k = 1; k < parts; ++k) sum += (k % 2 == 1 ? 4.0 : 2.0) * values(k);
+  return sum * length / (3.0 * static_cast<double>(parts));
+}
+
+double plate_height(const RodKind& rod, const Topology& topology, int link) {
+  return rod.obstacles[topology.seat(link).flat].chart(Eigen::Vector2d::Zero()).r(2);
+}
+
 /// One link as a curve, but for what `profile` fills in from its neighbours.
 Piece sample_link(const Chain& chain, const RodKind& rod, const VectorXd& x, const Loads& loads, int link,
                   const Topology& topology) {
@@ -182,10 +194,13 @@ Piece sample_link(const Chain& chain, const RodKind& rod, const VectorXd& x, con
   if (stretch == Stretch::line) {
     if (rod.spatial) {
       const obstacle::Surface& surface = rod.obstacles[piece.obstacle];
-      const Eigen::Vector2d start = placed.left.x.head<2>(), along = placed.n.head<2>();
+      const bool flat = topology.lies_flat(link);  // on a plate, at its height
+      const Eigen::Vector2d start(placed.left.x(0), flat ? plate_height(rod, topology, link) : placed.left.x(1)),
+          along(placed.n(0), flat ? 0.0 : placed.n(1));
       const double whole = topology.half && link == 0 ? 2.0 * placed.length : placed.length;
       sample_surface(samples, rod, surface, start, along, piece);
-      piece.force = surface_force(piece, samples, rod, surface, start, along, placed.length);
+      piece.force = flat ? simpson(piece.p, placed.length)
+                         : surface_force(piece, samples, rod, surface, start, along, placed.length);
       piece.buckling = buckling(piece, samples, rod, surface, whole);
     } else {
       sample_planar_line(samples, rod, placed.left.x(0), placed.n(0), piece);

@@ -106,6 +106,44 @@ Sparse Chain::material_metric(const Numbering& numbering, const Placed& placed, 
   return Sparse(material.transpose() * mass.asDiagonal() * material);
 }
 
+Chain::DraggedVariation Chain::dragged_variation(const VectorXd& x, const Loads& loads) const {
+  // A line may as well end a little earlier or later: its edge moves nothing to first order, and stays.
+  Numbering numbering = numbering_;
+  std::vector<Eigen::Index> place(size_, 0);
+  for (int j = 0; j < joint_count(); ++j) {
+    if (joints_[j]->kind() != contact::JointKind::edge || numbering.location[j] < 0) continue;
+    place[numbering.location[j]] = -1;
+    numbering.location[j] = -1;
+  }
+  Eigen::Index count = 0;
+  for (Eigen::Index& at : place)
+    if (at >= 0) at = count++;
+  Sparse metric(size_, size_);
+  for (int i = 0; i < link_count(); ++i) {
+    const Local l = local(Purpose::equilibrium, numbering_, x, loads, i);
+    metric += material_metric(numbering, this->place(x, loads, i), scatter(l.columns, l, dense_size_, i), i);
+  }
+  const auto kept = [&](const Sparse& all, std::vector<Triplet> entries) {
+    for (Eigen::Index c = 0; c < all.outerSize(); ++c)
+      for (Sparse::InnerIterator at(all, c); at; ++at)
+        if (place[at.row()] >= 0 && place[c] >= 0 && at.row() != slide_row())
+          entries.emplace_back(place[at.row()], place[c], at.value());
+    Sparse out(count, count);
+    out.setFromTriplets(entries.begin(), entries.end());
+    return out;
+  };
+  // Held against sliding along itself: not the arclength of the outermost contacts now, but what moves past them.
+  std::vector<Triplet> held;
+  for (int j = 0; j < joint_count() && slide_row() >= 0; ++j) {
+    const double share = slide_share(j);
+    if (share == 0.0) continue;
+    held.emplace_back(place[slide_row()], place[numbering.coordinate[j]], share);
+    if (numbering.location[j] >= 0)
+      held.emplace_back(place[slide_row()], place[numbering.location[j]], -share * joints_[j]->slide(coordinates(x, j)));
+  }
+  return {kept(jacobian(x, loads), held), kept(metric, {})};
+}
+
 VectorXd Chain::as_increment(const VectorXd& variation, Parity parity) const {
   const Purpose purpose = parity == Parity::odd && half() ? Purpose::odd : Purpose::even;
   const Numbering numbering = number(purpose);

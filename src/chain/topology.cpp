@@ -7,11 +7,13 @@
 #include <stdexcept>
 
 #include "windlass/contact/planar_joints.hpp"
+#include "windlass/contact/plate_joints.hpp"
 #include "windlass/contact/spatial_joints.hpp"
 #include "windlass/rod/closed_form_arcs.hpp"
 #include "windlass/rod/dragged_line_arc.hpp"
 #include "windlass/rod/kirchhoff_density.hpp"
 #include "windlass/rod/planar_density.hpp"
+#include "windlass/rod/plate_line_arc.hpp"
 
 namespace windlass::chain {
 
@@ -65,9 +67,24 @@ std::unique_ptr<Joint> end_joint(const RodKind& rod, const Topology& t, const Ar
   return std::make_unique<planar::End>(arc_side, kind == EndKind::clamped);
 }
 
+/// Joint between two stretches, one of which lies on a plate, too.
+std::unique_ptr<Joint> plate_joint(const RodKind& rod, const Topology& t, int joint) {
+  const Side flat = t.lies_flat(joint) ? Side::right : Side::left;
+  const int line = flat == Side::right ? joint : joint - 1, other = flat == Side::right ? joint - 1 : joint;
+  const obstacle::SurfacePointer &cylinder = rod.obstacles.pointer(t.obstacle(joint)),
+                                 &plate = rod.obstacles.pointer(t.seat(line).flat);
+  if (t.stretches[other] != Stretch::line)
+    return std::make_unique<spatial::FlatEdge>(flat, rod.bending_stiffness, cylinder, plate);
+  if (t.lies_flat(other)) throw std::invalid_argument("two line contacts cannot meet at a joint");
+  return std::make_unique<spatial::LiftOff>(flat, cylinder, plate);
+}
+
 /// Joint between two stretches, the first on the left, on an obstacle.
-std::unique_ptr<Joint> contact_joint(const RodKind& rod, Stretch left, Stretch right, Seat seat) {
+std::unique_ptr<Joint> contact_joint(const RodKind& rod, const Topology& t, int joint) {
+  const Stretch left = t.stretches[joint - 1], right = t.stretches[joint];
+  const Seat seat = t.seat(joint);
   const int obstacle = seat.obstacle;
+  if (t.lies_flat(joint - 1) || t.lies_flat(joint)) return plate_joint(rod, t, joint);
   if (left == Stretch::line && right == Stretch::line && seat.strand != 0 && rod.spatial)
     return std::make_unique<spatial::Pressed>(rod.obstacles.pointer(obstacle));
   if (left == Stretch::line && right == Stretch::line && seat.stop >= 0 && rod.spatial)
@@ -137,7 +154,7 @@ bool contacts_let_slide_along_x(const RodKind& rod, const Topology& t) {
 /// Does the rod touch an obstacle that does not let it move along the axis?
 bool on_plate(const RodKind& rod, const Topology& t) {
   for (int j = 1; j < static_cast<int>(t.stretches.size()); ++j)
-    if (t.seat(j).strand == 0 && rod.obstacles[t.pushed_by(j)].curvature() == 0.0) return true;
+    if (t.lies_flat(j) || (t.seat(j).strand == 0 && rod.obstacles[t.pushed_by(j)].curvature() == 0.0)) return true;
   return false;
 }
 
@@ -251,7 +268,7 @@ bool Topology::operator==(const Topology& other) const {
   if (stretches != other.stretches || half != other.half || mid_touch != other.mid_touch) return false;
   for (int j = 0; j <= static_cast<int>(stretches.size()); ++j)
     if (seat(j).obstacle != other.seat(j).obstacle || seat(j).stop != other.seat(j).stop ||
-        seat(j).middle != other.seat(j).middle)
+        seat(j).middle != other.seat(j).middle || seat(j).flat != other.seat(j).flat)
       return false;
   return couplings() == other.couplings();
 }
@@ -273,11 +290,13 @@ std::unique_ptr<Chain> build_chain(const RodKind& rod, const Topology& t,
       joints.push_back(t.half ? symmetric_joint(rod, t) : end_joint(rod, t, mesh_of(0), Side::right));
     else
       joints.push_back(i == count ? end_joint(rod, t, mesh_of(count - 1), Side::left)
-                                  : contact_joint(rod, all[i - 1], all[i], t.seat(i)));
+                                  : contact_joint(rod, t, i));
     if (i == count) break;
     const bool leftward = i == 0 && !t.half;
     Link link;
-    link.arc = make_arc(rod, all[i], t.obstacle(i), mesh_of(i), !leftward);
+    link.arc = t.lies_flat(i)
+                   ? std::make_unique<rod::PlateLineArc>(rod.bending_stiffness, rod.stiffness(2))
+                   : make_arc(rod, all[i], t.obstacle(i), mesh_of(i), !leftward);
     link.role = word(all[i]);
     if (all[i] == Stretch::tail && !rod.strut) link.pull = leftward ? -1 : 1;
     links.push_back(std::move(link));

@@ -273,40 +273,6 @@ void Pressed::place_curvature(const double* w, const Vector3d& f, SmallMatrix& o
 
 void Pressed::adopt(const Place& place, double* w) const { Edge(Side::left, 1.0, surface_).adopt(place, w); }
 
-Stopped::Stopped(SurfacePointer line, SurfacePointer plate, bool in_the_middle)
-    : line_(std::move(line)),
-      plate_(std::move(plate)),
-      height_(plate_->chart(Vector2d::Zero()).r(2)),
-      in_the_middle_(in_the_middle) {}
-
-Attachment Stopped::attach(Side, const double* w, const Loads&) const {
-  Attachment at = sized(2, 2, 2, tangent());
-  at.q << w[1], w[2];
-  at.dq.rightCols(2).setIdentity();
-  at.x << w[0], height_;
-  at.dx(0, 0) = 1.0;
-  return at;
-}
-
-Joint::Location Stopped::location(const double* w, const SmallVector&, const SmallVector&) const {
-  Location c;
-  c.value = std::sin(w[1]);
-  c.by_w = SmallVector::Zero(tangent());
-  c.by_w(1) = std::cos(w[1]);
-  return c;
-}
-
-Vector2d Stopped::on_surface(const double* w) const {
-  const Vector2d on_line(w[0], height_);
-  return plate_->coordinates(line_->chart(on_line).r, line_->turn(on_line));
-}
-
-void Stopped::adopt(const Place& place, double* w) const {
-  double all[4];
-  Edge(Side::left, 1.0, line_).adopt(place, all);
-  w[0] = all[0], w[1] = 0.0, w[2] = all[3];
-}
-
 Attachment End::attach(Side, const double* w, const Loads& loads) const {
   Attachment at = sized(4, 3, 3, tangent());
   if (clamped_) {

@@ -2,8 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <continuation/diagram.hpp>
+
 #include "attempt.hpp"
-#include "windlass/rod/quaternion.hpp"
+#include "harvest.hpp"
+#include "windlass/equilibrium/search.hpp"
 
 namespace windlass::equilibrium {
 
@@ -23,6 +28,13 @@ std::optional<double> levels_off(const Piece& tail, bool leftward, double slope)
     if (std::abs(tail.inclination(at)) < slope) return tail.s(at);
   }
   return std::nullopt;
+}
+
+/// The rod round a cylinder that stands, and no plate.
+scene::Scene standing(scene::Scene scene) {
+  scene.plate.reset();
+  scene.motion = {};
+  return scene;
 }
 
 double height_of_end(const Piece& tail, bool leftward) {
@@ -72,6 +84,68 @@ std::optional<Started> under_the_plate(const Started& still, const scene::Scene&
   const int used = problem->polish(x, p);
   if (used < 0) return failure = "Newton did not converge under the plate", std::nullopt;
   return Started{problem, problem->refine(x, p), p, used};
+}
+
+Started flat_on_plate(const scene::Scene& scene, const std::vector<std::string>& keys) {
+  std::string failure;
+  const std::optional<Started> still = followed_coil(standing(scene), true, false, keys, failure);
+  if (!still) throw NoEquilibrium("there is no flat coil: " + failure);
+  Topology topology = still->problem->topology();
+  const bool line = topology.stretches == std::vector<Stretch>{Stretch::tail, Stretch::line, Stretch::tail};
+  if (!line) return cold_start(scene, false, true, keys);
+  topology.on.resize(topology.stretches.size() + 1);
+  topology.on[1].flat = plate;
+  chain::Profile shape = still->problem->profile(still->x, still->p);
+  const std::vector<double> s = still->problem->joint_places(still->x, still->p, shape);
+  for (Piece& piece : shape.pieces) piece.r.row(2).array() += scene.plate->height;
+  std::vector<ArcMesh> meshes = still->problem->meshes();
+  choose_tails(meshes, topology, rod_of(scene, true), loads_of(scene), s);
+  const auto problem = std::make_shared<RodProblem>(scene, true, topology, meshes, keys);
+  Vector x = chain::guess_state(problem->chain(), topology, problem->rod(), shape, s);
+  const Vector p = problem->parameters();
+  const int used = problem->polish(x, p);
+  if (used < 0) throw NoEquilibrium("Newton did not converge on the flat coil on its plate");
+  return {problem, problem->refine(x, p), p, used};
+}
+
+std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector<std::string>& keys,
+                                    std::string& searched) {
+  constexpr double flat = 1e-6;  // [ρ]
+  // Next to nothing; with more friction the plate holds the tail nearer to the coil, so that short tails need more.
+  constexpr double least = 1e-3, next = 2.0, most = 0.1;
+  const double goal = scene.dragging_friction();
+  std::vector<Started> out;
+  int followed = 0, points = 0;
+  for (const FoundState& still : search(standing(scene), true, false, {"load.tension"}).states) {
+    if (still.fingerprint(2) < flat) continue;
+    std::optional<Started> start;
+    std::string failure;
+    for (double mu = std::min(least, 0.5 * goal); !start && mu < std::min(most, goal); mu *= next)
+      start = under_the_plate(still.at, scene, mu, failure);
+    if (!start) continue;
+    ++followed;
+    continuation::Options options;
+    options.target = options.upper = 2.0 * goal;  // beyond it a branch may turn and come back
+    options.lower = 0.0;
+    options.parameter_scale = goal;
+    options.detect_branch_points = false;
+    options.newton_tolerance = 1e-9;
+    options.max_points = 200;
+    Harvest harvest(goal, options);
+    continuation::DiagramOptions one;
+    one.max_branches = 1;
+    continuation::trace_diagram(start->problem, start->x, start->p, options, one, harvest);
+    points += harvest.points();
+    for (const Started& found : harvest.states()) {
+      const auto problem = std::make_shared<RodProblem>(scene, true, found.problem->topology(),
+                                                        found.problem->meshes(), keys);
+      Vector x = found.x;
+      if (problem->polish(x, problem->parameters()) >= 0) out.push_back({problem, x, problem->parameters(), 0});
+    }
+  }
+  searched = fmt::format("{} states without friction dragged to mu = {:.4g} and as far again, {} points",
+                         followed, goal, points);
+  return out;
 }
 
 }  // namespace windlass::equilibrium

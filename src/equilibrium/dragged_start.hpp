@@ -6,14 +6,24 @@
 
 #include "windlass/equilibrium/start.hpp"
 
-/// First states of a rod that a cylinder slips along and a plate holds back (PHYSICS, "Steady sliding").
+/// States of a rod that a cylinder slips along and a plate holds back (PHYSICS, "Steady sliding").
 namespace windlass::equilibrium {
 
+/// The flat coil, which lies on the plate along its whole contact; in the plane where the coil is no line contact.
+/// @throws NoEquilibrium
+Started flat_on_plate(const scene::Scene& scene, const std::vector<std::string>& keys);
+
 /// A state without friction, put under the plate: its highest tail touches the plate, and the rest of that tail lies flat in it.
-/// The cylinder drags by a little friction; from there on `reach` leads to the scene's.
+/// The cylinder drags by a little friction; continuation in it leads to the scene's.
 /// @param still    in contact with the cylinder only; one or both of its tails rise to its highest place
 /// @param failure  why there is none
 std::optional<Started> under_the_plate(const Started& still, const scene::Scene& scene, double friction,
                                        std::string& failure);
+
+/// States that have left the plate but for some places, at the scene's friction: those that the states without
+/// friction lead to as the friction grows from next to nothing, through folds.
+/// @param searched  for people: what was followed
+std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector<std::string>& keys,
+                                    std::string& searched);
 
 }  // namespace windlass::equilibrium

@@ -199,6 +199,7 @@ void measure_shape(const chain::Profile& whole, Solution& out) {
   out.z_span = extent_in_z(whole);
   for (const JointRecord& joint : out.joints) {
     if (joint.kind != JointKind::touch && joint.kind != JointKind::edge) continue;
+    if (out.has_cylinder && joint.obstacle > 0) continue;  // on a plate
     first = std::min(first, joint.angle);
     last = std::max(last, joint.angle);
   }
@@ -211,7 +212,7 @@ Vector3d strand_direction(const Solution& solution, const JointRecord& joint) {
   return (joint.r - solution.joints.at(static_cast<std::size_t>(joint.partner)).r).normalized();
 }
 
-void measure_invariants(Solution& out, const chain::RodKind& kind) {
+void measure_invariants(Solution& out, const chain::RodKind& kind, double friction) {
   double h0 = 0.0, torque0 = 0.0, strands = 0.0;  // strands: torque that others have taken up to here
   Vector3d balance = Vector3d::Zero();
   bool first = true;
@@ -235,7 +236,12 @@ void measure_invariants(Solution& out, const chain::RodKind& kind) {
     // Contact pressure carried by a line: the change of its internal force.
     if (arc.kind == ArcKind::line) balance += arc.n.col(arc.n.cols() - 1) - arc.n.col(0);
   }
-  for (const JointRecord& joint : out.joints) {
+  for (std::size_t j = 0; j < out.joints.size(); ++j) {
+    const JointRecord& joint = out.joints[j];
+    if (out.dragged && joint.obstacle == 0 && j > 0) {  // N (e_r + mu d) of a cylinder that slips
+      const Vector3d t = rod::directors(out.arcs[j].q.col(0)).col(2);
+      balance -= joint.force * friction * (Vector3d::UnitZ() - out.travel_rate * t).normalized();
+    }
     balance -= joint.force * joint.normal;
     balance -= joint.holding * joint.holding_direction();
   }
@@ -243,6 +249,55 @@ void measure_invariants(Solution& out, const chain::RodKind& kind) {
   balance -= out.arcs.back().n.rightCols<1>() - out.arcs.front().n.col(0);
   out.invariants.force_residual = balance.norm();
 }
+
+namespace {
+
+/// mu Σ N d_z of the contacts where the rod lies on a plate, too: it takes the friction on the spot.
+double drag_on_plate(const Solution& state, const Topology& topology, double upward) {
+  double sum = 0.0;
+  for (int k = 0; k < static_cast<int>(state.arcs.size()); ++k) {
+    const std::size_t i = static_cast<std::size_t>(k);
+    if (topology.lies_flat(k)) sum += state.arcs[i].force;
+    const bool edge = topology.lies_flat(k) || topology.lies_flat(k - 1);
+    if (edge && state.joints[i].obstacle == 0) sum += state.joints[i].force;
+  }
+  return upward * sum;
+}
+
+/// The same of the other contacts: what they take of the force along the axis.
+double axial_drag(const Solution& state, const Topology& topology) {
+  double sum = 0.0;
+  for (int k = 0; k < static_cast<int>(state.arcs.size()); ++k) {
+    if (topology.lies_flat(k)) continue;
+    const ArcRecord& arc = state.arcs[static_cast<std::size_t>(k)];
+    if (arc.kind == ArcKind::line && arc.obstacle == 0) sum += arc.n(2, 0) - arc.n(2, arc.n.cols() - 1);
+    if (k == 0 || topology.lies_flat(k - 1) || state.joints[static_cast<std::size_t>(k)].obstacle != 0) continue;
+    const ArcRecord& before = state.arcs[static_cast<std::size_t>(k - 1)];
+    sum += before.n(2, before.n.cols() - 1) - arc.n(2, 0);
+  }
+  return sum;
+}
+
+/// Of a cylinder that slips along the rod, and the plate that holds it back.
+void record_drag(const RodProblem& problem, const Vector& x, const scene::Scene& scene, Solution& out) {
+  if (!scene.slides()) return;
+  out.dragged = true;
+  if (!problem.spatial()) {
+    // Flat, the rod lies on the plate wherever it touches the cylinder, and the plate takes the friction there.
+    out.plate_force = *out.F0;
+    for (ArcRecord& arc : out.arcs) arc.r.row(2).array() += scene.plate->height;
+    for (JointRecord& joint : out.joints) joint.r(2) += scene.plate->height, joint.z += scene.plate->height;
+    return;
+  }
+  const double travelled = problem.chain().travelled(x);
+  (scene.ends.travel == scene::Travel::free ? out.travel_rate : out.pull_difference) = travelled;
+  const double upward = *scene.friction / std::sqrt(1.0 + out.travel_rate * out.travel_rate);
+  const double on_plate = drag_on_plate(out, problem.topology(), upward);
+  out.plate_force += on_plate;
+  out.F0 = on_plate + axial_drag(out, problem.topology());
+}
+
+}  // namespace
 
 Solution record(RodProblem& problem, const Vector& x, const Vector& p) {
   const contact::Loads loads = problem.loads(p);
@@ -277,9 +332,11 @@ Solution record(RodProblem& problem, const Vector& x, const Vector& p) {
     if (const double share = problem.chain().slide_share(j); share > 0.0 && problem.chain().holds_slide())
       out.joints[j].holding = -share * problem.chain().holding_force(x);
   for (const ArcRecord& arc : out.arcs) out.R_tot += arc.force;
-  for (const JointRecord& joint : out.joints) out.R_tot += joint.force;
+  for (const JointRecord& joint : out.joints)
+    (scene.has_cylinder && joint.obstacle > 0 ? out.plate_force : out.R_tot) += joint.force;
   if (scene.has_cylinder) {
     if (scene.friction) out.F0 = *scene.friction * out.R_tot;
+    record_drag(problem, x, scene, out);
   } else {
     const ArcRecord& last = out.arcs.back();
     out.end_force = 0.0 - last.n(0, last.n.cols() - 1);  // never −0
@@ -287,7 +344,7 @@ Solution record(RodProblem& problem, const Vector& x, const Vector& p) {
     out.shortening = 1.0 - (last.r(0, last.r.cols() - 1) - out.arcs.front().r(0, 0)) / scene.rod.length;
     out.phi_star = 0.0;
   }
-  measure_invariants(out, problem.rod());
+  measure_invariants(out, problem.rod(), loads.friction);
   out.error_estimate = problem.last_error();
   out.restart = restart_of(problem, x);
   multiply(out, scene.solved_in);
@@ -308,6 +365,9 @@ std::string chain_of(const RodProblem& problem) {
     chain["strands"].push_back(seat.strand);
     chain["parts"].push_back(seat.part);
     chain["lines"].push_back(seat.line);
+    chain["stops"].push_back(seat.stop);
+    chain["flats"].push_back(seat.flat);
+    chain["middles"].push_back(static_cast<int>(seat.middle));
   }
   for (const auto& mesh : problem.meshes())
     chain["meshes"].push_back({{"nodes", mesh.nodes}, {"stages", mesh.stages}});
@@ -333,9 +393,13 @@ std::shared_ptr<RodProblem> rebuild(const scene::Scene& scene, const std::string
   const auto on = chain.value("on", std::vector<int>()), strands = chain.value("strands", std::vector<int>());
   const auto parts = chain.value("parts", std::vector<double>());
   const auto lines = chain.value("lines", std::vector<int>());
+  const auto flats = chain.value("flats", std::vector<int>());
+  const auto stops = chain.value("stops", std::vector<int>()), middles = chain.value("middles", stops);
   for (std::size_t j = 0; j < on.size(); ++j)
     topology.on.push_back({on[j], j < strands.size() ? strands[j] : 0, j < parts.size() ? parts[j] : 0.0,
-                           j < lines.size() ? lines[j] : 0});
+                           j < lines.size() ? lines[j] : 0, j < stops.size() ? stops[j] : -1,
+                           j < flats.size() ? flats[j] : -1,
+                           j < middles.size() && stops[j] >= 0 && middles[j] == 1});
   std::vector<chain::ArcMesh> meshes;
   for (const auto& mesh : chain.at("meshes"))
     meshes.push_back({mesh.at("nodes").get<std::vector<double>>(), mesh.at("stages").get<int>()});

@@ -33,6 +33,8 @@ void multiply(Solution& solution, const scene::Units& units) {
   solution.R_tot *= units.force;
   solution.self_force *= units.force;
   if (solution.F0) *solution.F0 *= units.force;
+  solution.plate_force *= units.force;
+  solution.pull_difference *= units.force;
   solution.end_force *= units.force;
   solution.end_moment *= units.moment;
   solution.energy *= units.energy;
@@ -47,6 +49,7 @@ void multiply(Solution& solution, const scene::Units& units) {
 
 void multiply(Stability& stability, const scene::Units& units) {
   for (double& eigenvalue : stability.eigenvalues) eigenvalue *= units.force;
+  for (std::complex<double>& eigenvalue : stability.leading) eigenvalue *= units.force;
   stability.sliding *= units.pressure;
   for (Mode& mode : stability.modes) {
     mode.eigenvalue *= units.force;

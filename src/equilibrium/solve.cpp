@@ -7,6 +7,7 @@
 #include <continuation/walker.hpp>
 #include <functional>
 
+#include "dragged_start.hpp"
 #include "windlass/equilibrium/equilibria.hpp"
 #include "windlass/equilibrium/record.hpp"
 #include "windlass/equilibrium/search.hpp"
@@ -158,9 +159,32 @@ Solution solve_flat(const scene::Scene& scene, Started& planar) {
   return finish(planar, "the flat state is stable against all perturbations of the Kirchhoff rod");
 }
 
+/// Of a cylinder that slips along the rod: the flat coil on the plate if there is one, and what else was found.
+Equilibria solve_dragged(const scene::Scene& scene, const std::vector<std::string>& keys) {
+  std::string searched, why;
+  std::vector<Started> found = dragged_states(scene, keys, searched);
+  try {
+    found.insert(found.begin(), flat_on_plate(scene, keys));
+  } catch (const NoEquilibrium& none) {
+    why = none.what();
+  }
+  if (found.empty()) throw NoEquilibrium(why + "; nor a state that has left the plate, searched: " + searched);
+  Equilibria out;
+  for (Started& state : found) {
+    Solution solution = finish(
+        state, why.empty() ? "the flat coil, which lies on the plate along its contact" : "there is no flat coil");
+    out.states.push_back(summary_of(solution, scene, state.problem->total_index(state.x, state.p)));
+    if (out.states.size() == 1) out.answer = std::move(solution);
+  }
+  out.answer.model_reason += fmt::format("; {} steady states were found ({}), which of them a pull from rest "
+                                         "selects was not decided", found.size(), searched);
+  return out;
+}
+
 /// @param kirchhoff  the rung is asked for: the flat state, too, is given on it
 Equilibria solve_capstan(const scene::Scene& scene, const std::vector<std::string>& keys, bool kirchhoff) {
   const bool half = scene.half_turn();
+  if (scene.slides()) return solve_dragged(scene, keys);
   if (scene.knot.tied()) {
     Started knot = cold_start(scene, true, half, keys);
     const int index = knot.problem->total_index(knot.x, knot.p);

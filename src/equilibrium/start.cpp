@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "attempt.hpp"
+#include "dragged_start.hpp"
 #include "windlass/knot/start_curve.hpp"
 #include "windlass/rod/capstan.hpp"
 #include "windlass/scene/error.hpp"
@@ -91,6 +92,15 @@ std::optional<Started> knot_start(const scene::Scene& scene, bool half, const st
   return std::nullopt;
 }
 
+/// The first state that has left the plate; the flat coil, which the automatic rung starts with, where there is none.
+Started dragged_first(const scene::Scene& scene, const std::vector<std::string>& keys) {
+  if (scene.model.kind != scene::ModelKind::kirchhoff) return flat_on_plate(scene, keys);
+  std::string searched;
+  const std::vector<Started> states = dragged_states(scene, keys, searched);
+  if (states.empty()) throw NoEquilibrium("no state that has left the plate was found: " + searched);
+  return states.front();
+}
+
 }  // namespace
 
 std::optional<Started> followed_coil(const scene::Scene& scene, bool spatial, bool half,
@@ -113,6 +123,7 @@ Started cold_start(const scene::Scene& asked, bool spatial, bool half, const std
   if (!scene.has_cylinder)
     return scene.ends.shortening ? buckled_strut(scene, half, keys) : straight_strut(scene, half, keys);
   std::string failure;
+  if (spatial && scene.slides()) return dragged_first(scene, keys);
   if (scene.knot.tied()) {
     if (auto knot = knot_start(scene, half, keys, failure)) return *knot;
     throw NoEquilibrium("no equilibrium of the knot was found: " + failure);

@@ -77,6 +77,11 @@ BranchRow read_row(CellReader cells, bool has_cylinder, bool has_extra) {
   row.energy = cells.real();
   row.self_distance = cells.optional<double>();
   row.self_force = cells.real();
+  if (has_cylinder) {
+    row.plate_force = cells.real();
+    row.F0 = cells.optional<double>();
+    row.travel = cells.optional<double>();
+  }
   row.index = cells.optional<int>();
   row.eigenvalue_1 = cells.optional<double>();
   row.ds = cells.real();
@@ -129,9 +134,9 @@ std::string format_number(double value) {
 std::string csv_header(bool has_cylinder, const std::string& extra_parameter) {
   std::string header = "branch,point,label,type,T,phi,";
   header += has_cylinder ? "R_tot,phi_star," : "end_force,end_moment,shortening,";
-  header +=
-      "tilt,z_span,energy,self_distance,self_force,index,eigenvalue_1,ds,newton_iterations,error_estimate,"
-      "topology";
+  header += "tilt,z_span,energy,self_distance,self_force,";
+  if (has_cylinder) header += "plate_force,F0,travel,";
+  header += "index,eigenvalue_1,ds,newton_iterations,error_estimate,topology";
   if (!extra_parameter.empty()) header += "," + csv_cell(extra_parameter);
   return header + "\n";
 }
@@ -155,6 +160,11 @@ std::string csv_line(const BranchRow& row, bool has_cylinder, const std::string&
   add(row.energy);
   add(row.self_distance.value_or(std::nan("")));
   add(row.self_force);
+  if (has_cylinder) {
+    add(row.plate_force);
+    add(row.F0.value_or(std::nan("")));
+    add(row.travel.value_or(std::nan("")));
+  }
   line += "," + (row.index ? std::to_string(*row.index) : std::string());
   add(row.eigenvalue_1.value_or(std::nan("")));
   add(row.ds);

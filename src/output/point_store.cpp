@@ -45,6 +45,8 @@ void visit_scalars(Points& p, AnySolution& x, Visit visit) {
   visit(p.T, x.T), visit(p.phi, x.phi), visit(p.R_tot, x.R_tot), visit(p.phi_star, x.phi_star);
   visit(p.tilt, x.tilt), visit(p.z_span, x.z_span), visit(p.energy, x.energy);
   visit(p.self_force, x.self_force);
+  visit(p.plate_force, x.plate_force), visit(p.dragged, x.dragged);
+  visit(p.travel_rate, x.travel_rate), visit(p.pull_difference, x.pull_difference);
   visit(p.end_force, x.end_force), visit(p.end_moment, x.end_moment), visit(p.shortening, x.shortening);
   visit(p.error_estimate, x.error_estimate);
   visit(p.hamiltonian_drift, x.invariants.hamiltonian_drift);

@@ -92,6 +92,24 @@ ordered_json contact_json(const Solution& solution) {
   return contact;
 }
 
+/// What the plate carries: points, and lines that lie on cylinder and plate at once.
+ordered_json plate_json(const Solution& solution, const scene::Scene& scene) {
+  ordered_json plate;
+  plate["force"] = finite_or_null(solution.plate_force);
+  plate["arcs"] = plate["joints"] = ordered_json::array();
+  const bool flat = solution.dragged && solution.model == "planar";  // it takes the friction where it acts
+  const double mu = flat ? scene.friction.value_or(0.0) : 1.0;
+  for (const ArcRecord& arc : solution.arcs)
+    if (flat && arc.kind == equilibrium::ArcKind::line)
+      plate["arcs"].push_back({{"s_begin", finite_or_null(arc.s_begin)},
+                               {"s_end", finite_or_null(arc.s_end)},
+                               {"force", finite_or_null(mu * arc.force)}});
+  for (const JointRecord& joint : solution.joints)
+    if (joint.force > 0.0 && (flat || joint.obstacle > 0))
+      plate["joints"].push_back({{"s", finite_or_null(joint.s)}, {"force", finite_or_null(mu * joint.force)}});
+  return plate;
+}
+
 ordered_json stability_json(const Solution& solution) {
   if (!solution.stability) return nullptr;
   ordered_json json;
@@ -102,6 +120,8 @@ ordered_json stability_json(const Solution& solution) {
     json["eigenvalues"].push_back(finite_or_null(value));
   json["degenerate"] = solution.stability->degenerate;
   json["sliding"] = solution.stability->sliding;
+  for (const std::complex<double>& value : solution.stability->leading)
+    json["leading"].push_back({finite_or_null(value.real()), finite_or_null(value.imag())});
   return json;
 }
 
@@ -190,6 +210,10 @@ ordered_json to_json(const Solution& solution, const scene::Scene& scene) {
   json["self_distance"] = finite_or_null(solution.self_distance.value_or(std::nan("")));
   json["self_force"] = finite_or_null(solution.self_force);
   if (scene.has_obstacles() || scene.self_contact) json["contact"] = contact_json(solution);
+  if (scene.plate) json["plate"] = plate_json(solution, scene);
+  if (solution.dragged)
+    json["travel"] = {{"rate", finite_or_null(solution.travel_rate)},
+                      {"pull_difference", finite_or_null(solution.pull_difference)}};
   json["stability"] = stability_json(solution);
   json["invariants"] = {{"hamiltonian_drift", finite_or_null(solution.invariants.hamiltonian_drift)},
                         {"axial_torque_drift", finite_or_null(solution.invariants.axial_torque_drift)},

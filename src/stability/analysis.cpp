@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dragged_spectrum.hpp"
 #include "windlass/equilibrium/start.hpp"
 
 namespace windlass::stability {
@@ -75,8 +76,28 @@ int neutral_modes(const RodProblem& problem) {
   return problem.topology().half ? 2 * hinges : hinges;
 }
 
+namespace {
+
+/// Of a dragged state; its index counts the eigenvalues of negative real part.
+Stability analyse_dragged(RodProblem& problem, const Vector& x, const Vector& p, int count) {
+  Stability out;
+  for (const chain::Contact& c : problem.profile(x, p).contacts) out.degenerate |= c.force < zero_force;
+  const contact::Loads loads = problem.loads(p);
+  out.leading = leading_eigenvalues(problem.chain().dragged_variation(x, loads), count);
+  for (const std::complex<double>& value : out.leading) {
+    out.index += value.real() < 0.0;
+    out.eigenvalues.push_back(value.real());
+  }
+  out.inertia_index = out.index;
+  equilibrium::multiply(out, problem.units());
+  return out;
+}
+
+}  // namespace
+
 Stability analyse(RodProblem& given, const Vector& at_x, const Vector& p, int count, bool modes,
                   SpectrumSolver& solver) {
+  if (given.dragged()) return analyse_dragged(given, at_x, p, count);
   Stability out;
   out.inertia_index = given.total_index(at_x, p);
   out.sliding = given.sliding_stiffness(at_x, p);

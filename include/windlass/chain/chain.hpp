@@ -210,6 +210,13 @@ class Chain {
   };
   SecondVariation second_variation(const VectorXd& x, const Loads& loads, contact::Parity parity) const;
 
+  /// Of a dragged state: its linearisation with the contacts held that are active, edges where they are, and the metric of
+  /// variations. Neither symmetric nor definite; multipliers and locations weigh nothing.
+  struct DraggedVariation {
+    Eigen::SparseMatrix<double> matrix, metric;
+  };
+  DraggedVariation dragged_variation(const VectorXd& x, const Loads& loads) const;
+
   /// Largest entry of an increment at the joints and at element ends, where collocation is superconvergent.
   double nodal_norm(const VectorXd& dx) const;
 

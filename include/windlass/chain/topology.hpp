@@ -29,6 +29,8 @@ struct Seat {
   int line = 0;
   /// Of a place inside a line contact: the obstacle that stops it there, too (a plate); −1: none.
   int stop = -1;
+  /// The line that begins here lies on this obstacle, a plate, too; −1: on its own alone.
+  int flat = -1;
   bool middle = false;  ///< of a stop: at s = 0, see contact::spatial::Stopped
   bool operator==(const Seat& other) const = default;
 };
@@ -48,6 +50,11 @@ struct Topology {
 
   Seat seat(int joint) const { return on.empty() ? Seat{} : on[joint]; }
   int obstacle(int joint) const { return seat(joint).obstacle; }
+  /// Does a link lie on its obstacle and a plate at once?
+  bool lies_flat(int link) const {
+    return link >= 0 && link < static_cast<int>(stretches.size()) && stretches[link] == Stretch::line &&
+           seat(link).flat >= 0;
+  }
   /// What a contact joint is pushed by: where a line is stopped, what stops it.
   int pushed_by(int joint) const { return seat(joint).stop >= 0 ? seat(joint).stop : seat(joint).obstacle; }
   std::vector<Coupling> couplings() const;

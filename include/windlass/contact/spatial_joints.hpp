@@ -177,30 +177,6 @@ class Pressed final : public VectorJoint {
   SurfacePointer surface_;
 };
 
-/// A place of a line contact that touches a plane z = const, a plate, too: w = (u₀, ψ, χ), 3 degrees of freedom, arclength
-/// unknown. The plate's force is a jump of the line's force along the axis; ψ, χ and their moments are continuous. Equations 4:
-/// force round the axis, moments (2), and the place is the line's highest, sin ψ = 0. In a rod that is its own mirror image
-/// under x → −x it is at s = 0, and sin ψ = 0 follows: so where the line is flat, too, and has no highest place.
-class Stopped final : public VectorJoint {
- public:
-  Stopped(SurfacePointer line, SurfacePointer plate, bool in_the_middle);
-  JointKind kind() const override { return JointKind::touch; }
-  int tangent() const override { return 3; }
-  bool locates() const override { return !in_the_middle_; }
-  int spin_coordinate() const override { return 2; }
-  double slide(const double* w) const override { return std::cos(w[1]); }
-  Attachment attach(Side side, const double* w, const Loads& loads) const override;
-  Location location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const override;
-  void adopt(const Place& place, double* w) const override;
-  const obstacle::Surface* surface() const override { return plate_.get(); }
-  Eigen::Vector2d on_surface(const double* w) const override;
-
- private:
-  SurfacePointer line_, plate_;
-  double height_;
-  bool in_the_middle_;
-};
-
 /// Rod end under the dead pull. moment_free: w = (q), 3 degrees of freedom. clamped: frame along the pull, as in the untwisted planar rod.
 class End final : public Joint {
  public:

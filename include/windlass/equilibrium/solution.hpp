@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -91,6 +92,8 @@ struct Stability {
   double sliding = 0.0;
   bool degenerate = false;  ///< a contact carries zero force to within tolerance
   std::vector<Mode> modes;
+  /// Of a dragged state, whose load has no potential: eigenvalues of (K, metric), the least real part first.
+  std::vector<std::complex<double>> leading;
 };
 
 /// Opaque restart data: enough to rebuild the discrete problem and its unknowns exactly.
@@ -107,8 +110,13 @@ struct Solution {
   int newton_iterations = 0;
 
   bool has_cylinder = true;
-  double R_tot = 0.0;        ///< sum of sizes of all contact forces, pressure integrated
+  double R_tot = 0.0;        ///< sum of sizes of all contact forces, pressure integrated; without a plate's
   std::optional<double> F0;  ///< mu R_tot, where the scene has mu
+  double plate_force = 0.0;  ///< sum of the sizes of the plate's forces [EI/ρ²]
+  /// The cylinder slips along the rod: F0 is then mu Σ N d_z of this state, and one of the two is an unknown of it.
+  bool dragged = false;
+  double travel_rate = 0.0;      ///< ω: the rod runs along itself at ω times the cylinder's speed
+  double pull_difference = 0.0;  ///< τ: the pulls are T ± τ [EI/ρ²]
   double phi_star = 0.0;     ///< half the angle between the outermost contacts [rad]
   double tilt = 0.0;         ///< inclination of the mid-point tangent to the plane z = 0 [rad]
   double z_span = 0.0;       ///< max z - min z over the rod [ρ]

@@ -27,12 +27,12 @@ struct PointColumns {
   using Texts = std::vector<std::string>;
 
   struct Points {
-    Integers branch, point, converged, newton_iterations, has_cylinder, has_F0, has_self_distance,
+    Integers branch, point, converged, newton_iterations, has_cylinder, has_F0, dragged, has_self_distance,
         has_stability, index, inertia_index, degenerate, elements, stages, unknowns;
     Integers arc_begin, arc_count, joint_begin, joint_count, eigenvalue_begin, eigenvalue_count, mode_begin,
         mode_count, state_begin, state_count;
     Reals T, phi, R_tot, F0, self_distance, self_s1, self_s2, phi_star, tilt, z_span, energy, self_force,
-        end_force, end_moment, shortening, error_estimate;
+        plate_force, travel_rate, pull_difference, end_force, end_moment, shortening, error_estimate;
     Reals hamiltonian_drift, axial_torque_drift, force_residual, seconds_solve, seconds_stability,
         seconds_total;
     Texts label, model, model_reason, topology, chain;

@@ -32,6 +32,9 @@ struct BranchRow {
   double energy = 0.0;                  ///< [EI/ρ]
   std::optional<double> self_distance;  ///< closest approach of the rod to itself [ρ], where there is one
   double self_force = 0.0;              ///< sum of the sizes of the forces between strands [EI/ρ²]
+  double plate_force = 0.0;             ///< capstan: of the plate on the rod [EI/ρ²]
+  std::optional<double> F0;             ///< capstan with a friction coefficient [EI/ρ²]
+  std::optional<double> travel;         ///< while the cylinder slips: ω, or with ends.travel = "blocked" τ [EI/ρ²]
   std::optional<int> index;             ///< number of negative eigenvalues, where computed
   std::optional<double> eigenvalue_1;   ///< lowest eigenvalue, where computed
   double ds = 0.0;                      ///< continuation step that led here

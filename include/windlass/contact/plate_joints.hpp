@@ -1,0 +1,80 @@
+#pragma once
+
+#include "windlass/contact/spatial_joints.hpp"
+
+/// Joints of a rod that a cylinder and a plate z = const hold at once.
+namespace windlass::contact::spatial {
+
+/// A place of a line contact that touches a plate, too: w = (u₀, ψ, χ), 3 degrees of freedom, arclength unknown. The plate's
+/// force is a jump of the line's force along the axis; ψ, χ and their moments are continuous. Equations 4: force round the
+/// axis, moments (2), and the place is the line's highest, sin ψ = 0. In a rod that is its own mirror image under x → −x it is
+/// at s = 0, and sin ψ = 0 follows: so where the line is flat, too, and has no highest place.
+class Stopped final : public VectorJoint {
+ public:
+  Stopped(SurfacePointer line, SurfacePointer plate, bool in_the_middle);
+  JointKind kind() const override { return JointKind::touch; }
+  int tangent() const override { return 3; }
+  bool locates() const override { return !in_the_middle_; }
+  int spin_coordinate() const override { return 2; }
+  double slide(const double* w) const override { return std::cos(w[1]); }
+  Attachment attach(Side side, const double* w, const Loads& loads) const override;
+  Location location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const override;
+  void adopt(const Place& place, double* w) const override;
+  const obstacle::Surface* surface() const override { return plate_.get(); }
+  Eigen::Vector2d on_surface(const double* w) const override;
+
+ private:
+  SurfacePointer line_, plate_;
+  double height_;
+  bool in_the_middle_;
+};
+
+/// Edge of a line on cylinder and plate (rod/plate_line_arc.hpp) with a free arc behind: w = (u₀, χ), 2 degrees of freedom,
+/// arclength unknown. Equations 3: those of an Edge with ψ = 0 at the plate's height, for force round the axis, moment
+/// along the rod, and the normal curvature; the plate takes the other two, mu f of the friction among them.
+class FlatEdge final : public VectorJoint {
+ public:
+  FlatEdge(Side line_side, double bending_stiffness, SurfacePointer line, const SurfacePointer& plate);
+  JointKind kind() const override { return JointKind::edge; }
+  int tangent() const override { return 2; }
+  bool locates() const override { return true; }
+  int spin_coordinate() const override { return 1; }
+  int places() const override { return 1; }
+  Attachment attach(Side side, const double* w, const Loads& loads) const override;
+  void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
+                 SmallMatrix& out) const override;
+  Location location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const override;
+  void adopt(const Place& place, double* w) const override;
+  const obstacle::Surface* surface() const override { return edge_.surface(); }
+  Eigen::Vector2d on_surface(const double* w) const override { return {w[0], height_}; }
+
+ private:
+  Eigen::Vector4d on_edge(const double* w) const { return {w[0], height_, 0.0, w[1]}; }
+  Side line_;
+  Edge edge_;
+  double height_;
+};
+
+/// Where a line on cylinder and plate leaves the plate and goes on along the cylinder: w = (u₀, χ), 2 degrees of freedom,
+/// arclength unknown. Equations 3: force round the axis, moment along the rod, and no moment about N (the line on the plate
+/// has none, and a plate gives none). The plate's point force is a jump of the force along the axis.
+class LiftOff final : public VectorJoint {
+ public:
+  LiftOff(Side flat_side, SurfacePointer line, SurfacePointer plate);
+  JointKind kind() const override { return JointKind::edge; }
+  int tangent() const override { return 2; }
+  bool locates() const override { return true; }
+  int spin_coordinate() const override { return 1; }
+  Attachment attach(Side side, const double* w, const Loads& loads) const override;
+  Location location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const override;
+  void adopt(const Place& place, double* w) const override;
+  const obstacle::Surface* surface() const override { return plate_.get(); }
+  Eigen::Vector2d on_surface(const double* w) const override;
+
+ private:
+  Side flat_;
+  SurfacePointer line_, plate_;
+  double height_;
+};
+
+}  // namespace windlass::contact::spatial
