@@ -103,7 +103,7 @@ void BranchRecorder::add_eigenvalues(Solution& solution, const Point& point) {
   auto& problem = dynamic_cast<RodProblem&>(*point.problem);
   equilibrium::Stability stability;
   kernel_ = 0;
-  if (spectra_ || special(point)) {
+  if (spectra_ || special(point) || problem.dragged()) {  // only a spectrum knows a dragged state's index
     try {
       // At a branch point the zero eigenvalues are counted: the kernel of the whole rod, of which a half chain sees the
       // even part.
@@ -117,8 +117,7 @@ void BranchRecorder::add_eigenvalues(Solution& solution, const Point& point) {
         const std::exception&) {  // at a singular point the spectrum may be out of reach; the index is not
     }
   }
-  if (!problem.dragged())
-    stability.index = stability.inertia_index = problem.total_index(point.x, point.p);
+  if (!problem.dragged()) stability.index = stability.inertia_index = problem.total_index(point.x, point.p);
   solution.stability = stability;
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   solution.seconds_stability = seconds;

@@ -34,6 +34,18 @@ void add_stability(Solution& solution, const scene::Scene& scene) {
   solution.seconds_total = solution.seconds_solve + solution.seconds_stability;
 }
 
+/// A dragged state's index is known from its spectrum only.
+void add_indices(equilibrium::Equilibria& found, const scene::Scene& scene) {
+  if (!found.answer.dragged || !found.answer.stability) return;
+  for (equilibrium::StateSummary& state : found.states) {
+    if (state.index >= 0) continue;
+    auto problem = equilibrium::reopen(scene, state.restart, {equilibrium::load_key(scene)});
+    stability::SpectrumSolver solver;
+    state.index =
+        stability::analyse(*problem, state.restart.state, problem->parameters(), 2, false, solver).index;
+  }
+}
+
 constexpr double degrees = 180.0 / M_PI;
 
 /// A quantity without dimension and, for a material scene, with its unit beside it.
@@ -88,11 +100,20 @@ void print_contacts(const Solution& solution, const Physical& physical) {
   }
 }
 
-void print_capstan(const Solution& solution, const Physical& physical, const std::string& error) {
+void print_capstan(const Solution& solution, const scene::Scene& scene, const Physical& physical,
+                   const std::string& error) {
   print_quantity("T", solution.T, physical.pull(solution.T));
   print_quantity("phi", solution.phi, fmt::format("{:.6g}°", solution.phi * degrees));
   print_quantity("R_tot", solution.R_tot, physical.force(solution.R_tot), error);
   if (solution.F0) print_quantity("F0", *solution.F0, physical.force(*solution.F0));
+  if (solution.dragged) {
+    print_quantity("plate", solution.plate_force, physical.force(solution.plate_force));
+    if (scene.ends.travel == scene::Travel::free)
+      print_quantity("travel", solution.travel_rate, "of the cylinder's speed, along itself");
+    else
+      print_quantity("travel", solution.pull_difference, physical.force(solution.pull_difference),
+                     "blocked: the pulls are T +- this");
+  }
   print_quantity("phi_star", solution.phi_star, fmt::format("{:.6g}°", solution.phi_star * degrees));
   print_quantity("tilt", solution.tilt, fmt::format("{:.6g}°", solution.tilt * degrees));
   print_quantity("z_span", solution.z_span, physical.length(solution.z_span));
@@ -131,6 +152,11 @@ void print_others(const equilibrium::Equilibria& found) {
   const Solution& solution = found.answer;
   for (std::size_t k = 1; k < found.states.size(); ++k) {
     const equilibrium::StateSummary& other = found.states[k];
+    if (solution.dragged) {
+      fmt::print("  {:<12} R_tot = {:.8g}, F0 = {:.8g}, index {}, {}\n", k == 1 ? "others" : "", other.R_tot,
+                 other.F0.value_or(NAN), other.index, other.topology);
+      continue;
+    }
     fmt::print("  {:<12} {} = {:.8g}, energy {:.8g}, potential {:+.3g} from it, index {}, {}\n",
                k == 1 ? "others" : "", solution.has_cylinder ? "R_tot" : "end_force",
                solution.has_cylinder ? other.R_tot : other.end_force, other.energy,
@@ -148,7 +174,7 @@ void print_summary(const equilibrium::Equilibria& found, const scene::Scene& sce
     fmt::print("  {:<12} length {:.6g} mm, force EI/ρ² = {:.6g} N\n", "units", scene.units->length * 1e3,
                scene.units->force);
   if (solution.has_cylinder)
-    print_capstan(solution, physical, error);
+    print_capstan(solution, scene, physical, error);
   else
     print_strut(solution, physical, error);
   print_quantity("energy", solution.energy, physical.moment(solution.energy));
@@ -195,6 +221,7 @@ int run_solve(const SolveRequest& request) {
     const Heartbeat heartbeat(scene.name + ": searching the equilibrium", request.common.quiet);
     equilibrium::Equilibria all = equilibrium::equilibria(request.scene);
     add_stability(all.answer, scene);
+    add_indices(all, scene);
     return all;
   }();
   const Solution& solution = found.answer;

@@ -37,9 +37,7 @@ scene::Scene standing(scene::Scene scene) {
   return scene;
 }
 
-double height_of_end(const Piece& tail, bool leftward) {
-  return tail.r(2, leftward ? 0 : tail.s.size() - 1);
-}
+double height_of_end(const Piece& tail, bool leftward) { return tail.r(2, leftward ? 0 : tail.s.size() - 1); }
 
 }  // namespace
 
@@ -53,8 +51,8 @@ std::optional<Started> under_the_plate(const Started& still, const scene::Scene&
   double top = -HUGE_VAL;
   for (const Piece& piece : shape.pieces) top = std::max(top, piece.r.row(2).maxCoeff());
   // The plate's force is mu R_tot or so, and turns the end of the tail by that over the pull.
-  const double drag = friction * still.problem->target(still.problem->chain(), still.x,
-                                                       still.problem->loads(still.p));
+  const double drag =
+      friction * still.problem->target(still.problem->chain(), still.x, still.problem->loads(still.p));
   const double slope = drag / scene.load.tension;
   double height = top;
   bool touched = false;
@@ -63,7 +61,8 @@ std::optional<Started> under_the_plate(const Started& still, const scene::Scene&
     constexpr double as_high = 1e-6;
     if (height_of_end(tail, leftward) < top - as_high) continue;
     const std::optional<double> at = levels_off(tail, leftward, slope);
-    if (!at) return failure = "the tail that is highest is shorter than where the plate would hold it", std::nullopt;
+    if (!at)
+      return failure = "the tail that is highest is shorter than where the plate would hold it", std::nullopt;
     const int link = leftward ? 0 : static_cast<int>(topology.stretches.size()) - 1;
     topology.stretches.insert(topology.stretches.begin() + link, topology.stretches[link]);
     topology.stretches[leftward ? 1 : link] = Stretch::gap;
@@ -130,17 +129,18 @@ std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector
     options.parameter_scale = goal;
     options.detect_branch_points = false;
     options.newton_tolerance = 1e-9;
-    options.max_points = 200;
+    options.max_points = 800;
     Harvest harvest(goal, options);
     continuation::DiagramOptions one;
     one.max_branches = 1;
     continuation::trace_diagram(start->problem, start->x, start->p, options, one, harvest);
     points += harvest.points();
     for (const Started& found : harvest.states()) {
-      const auto problem = std::make_shared<RodProblem>(scene, true, found.problem->topology(),
-                                                        found.problem->meshes(), keys);
+      const auto problem =
+          std::make_shared<RodProblem>(scene, true, found.problem->topology(), found.problem->meshes(), keys);
       Vector x = found.x;
-      if (problem->polish(x, problem->parameters()) >= 0) out.push_back({problem, x, problem->parameters(), 0});
+      if (problem->polish(x, problem->parameters()) >= 0)
+        out.push_back({problem, x, problem->parameters(), 0});
     }
   }
   searched = fmt::format("{} states without friction dragged to mu = {:.4g} and as far again, {} points",

@@ -212,7 +212,7 @@ Vector3d strand_direction(const Solution& solution, const JointRecord& joint) {
   return (joint.r - solution.joints.at(static_cast<std::size_t>(joint.partner)).r).normalized();
 }
 
-void measure_invariants(Solution& out, const chain::RodKind& kind, double friction) {
+void measure_invariants(Solution& out, const chain::RodKind& kind) {
   double h0 = 0.0, torque0 = 0.0, strands = 0.0;  // strands: torque that others have taken up to here
   Vector3d balance = Vector3d::Zero();
   bool first = true;
@@ -236,12 +236,7 @@ void measure_invariants(Solution& out, const chain::RodKind& kind, double fricti
     // Contact pressure carried by a line: the change of its internal force.
     if (arc.kind == ArcKind::line) balance += arc.n.col(arc.n.cols() - 1) - arc.n.col(0);
   }
-  for (std::size_t j = 0; j < out.joints.size(); ++j) {
-    const JointRecord& joint = out.joints[j];
-    if (out.dragged && joint.obstacle == 0 && j > 0) {  // N (e_r + mu d) of a cylinder that slips
-      const Vector3d t = rod::directors(out.arcs[j].q.col(0)).col(2);
-      balance -= joint.force * friction * (Vector3d::UnitZ() - out.travel_rate * t).normalized();
-    }
+  for (const JointRecord& joint : out.joints) {
     balance -= joint.force * joint.normal;
     balance -= joint.holding * joint.holding_direction();
   }
@@ -252,16 +247,18 @@ void measure_invariants(Solution& out, const chain::RodKind& kind, double fricti
 
 namespace {
 
-/// mu Σ N d_z of the contacts where the rod lies on a plate, too: it takes the friction on the spot.
-double drag_on_plate(const Solution& state, const Topology& topology, double upward) {
+/// mu N d_z of the contacts where the rod lies on a plate, too: it takes the friction on the spot. @returns the sum
+double drag_on_plate(Solution& state, const Topology& topology, double upward) {
   double sum = 0.0;
   for (int k = 0; k < static_cast<int>(state.arcs.size()); ++k) {
-    const std::size_t i = static_cast<std::size_t>(k);
-    if (topology.lies_flat(k)) sum += state.arcs[i].force;
+    ArcRecord& arc = state.arcs[static_cast<std::size_t>(k)];
+    JointRecord& joint = state.joints[static_cast<std::size_t>(k)];
+    if (topology.lies_flat(k)) arc.plate_force = upward * arc.force;
     const bool edge = topology.lies_flat(k) || topology.lies_flat(k - 1);
-    if (edge && state.joints[i].obstacle == 0) sum += state.joints[i].force;
+    if (edge && joint.obstacle == 0) joint.plate_force = upward * joint.force;
+    sum += arc.plate_force + joint.plate_force;
   }
-  return upward * sum;
+  return sum;
 }
 
 /// The same of the other contacts: what they take of the force along the axis.
@@ -271,11 +268,29 @@ double axial_drag(const Solution& state, const Topology& topology) {
     if (topology.lies_flat(k)) continue;
     const ArcRecord& arc = state.arcs[static_cast<std::size_t>(k)];
     if (arc.kind == ArcKind::line && arc.obstacle == 0) sum += arc.n(2, 0) - arc.n(2, arc.n.cols() - 1);
-    if (k == 0 || topology.lies_flat(k - 1) || state.joints[static_cast<std::size_t>(k)].obstacle != 0) continue;
+    if (k == 0 || topology.lies_flat(k - 1) || state.joints[static_cast<std::size_t>(k)].obstacle != 0)
+      continue;
     const ArcRecord& before = state.arcs[static_cast<std::size_t>(k - 1)];
     sum += before.n(2, before.n.cols() - 1) - arc.n(2, 0);
   }
   return sum;
+}
+
+/// Of a dragged state only what friction leaves is conserved: the axial torque where the rod does not run along itself.
+/// The residual of the forces is that of the contacts of the cylinder, across the axis: N (e_r + mu d).
+void measure_drag(Solution& out, double friction) {
+  out.invariants.hamiltonian_drift = out.invariants.force_residual = 0.0;
+  if (out.travel_rate != 0.0) out.invariants.axial_torque_drift = 0.0;
+  for (std::size_t k = 1; k + 1 < out.joints.size(); ++k) {
+    const JointRecord& joint = out.joints[k];
+    const ArcRecord &before = out.arcs[k - 1], &after = out.arcs[k];
+    const Vector3d t = rod::directors(after.q.col(0)).col(2);
+    Vector3d force = joint.force * joint.normal;
+    if (joint.obstacle == 0)
+      force += joint.force * friction * (Vector3d::UnitZ() - out.travel_rate * t).normalized();
+    const Vector3d rest = before.n.rightCols<1>() - after.n.col(0) - force;
+    out.invariants.force_residual = std::max(out.invariants.force_residual, rest.head<2>().norm());
+  }
 }
 
 /// Of a cylinder that slips along the rod, and the plate that holds it back.
@@ -285,8 +300,14 @@ void record_drag(const RodProblem& problem, const Vector& x, const scene::Scene&
   if (!problem.spatial()) {
     // Flat, the rod lies on the plate wherever it touches the cylinder, and the plate takes the friction there.
     out.plate_force = *out.F0;
-    for (ArcRecord& arc : out.arcs) arc.r.row(2).array() += scene.plate->height;
-    for (JointRecord& joint : out.joints) joint.r(2) += scene.plate->height, joint.z += scene.plate->height;
+    for (ArcRecord& arc : out.arcs) {
+      arc.r.row(2).array() += scene.plate->height;
+      arc.plate_force = *scene.friction * arc.force;
+    }
+    for (JointRecord& joint : out.joints) {
+      joint.r(2) += scene.plate->height, joint.z += scene.plate->height;
+      joint.plate_force = *scene.friction * joint.force;
+    }
     return;
   }
   const double travelled = problem.chain().travelled(x);
@@ -344,7 +365,8 @@ Solution record(RodProblem& problem, const Vector& x, const Vector& p) {
     out.shortening = 1.0 - (last.r(0, last.r.cols() - 1) - out.arcs.front().r(0, 0)) / scene.rod.length;
     out.phi_star = 0.0;
   }
-  measure_invariants(out, problem.rod(), loads.friction);
+  measure_invariants(out, problem.rod());
+  if (out.dragged) measure_drag(out, *scene.friction);
   out.error_estimate = problem.last_error();
   out.restart = restart_of(problem, x);
   multiply(out, scene.solved_in);

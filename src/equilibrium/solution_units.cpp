@@ -10,6 +10,7 @@ void multiply(ArcRecord& arc, const scene::Units& units) {
   arc.s *= units.length;
   arc.r *= units.length;
   arc.force *= units.force;
+  arc.plate_force *= units.force;
   arc.n *= units.force;
   arc.m *= units.moment;
   arc.p *= units.pressure;
@@ -20,6 +21,7 @@ void multiply(JointRecord& joint, const scene::Units& units) {
   joint.z *= units.length;
   joint.r *= units.length;
   joint.force *= units.force;
+  joint.plate_force *= units.force;
   joint.holding *= units.force;
   joint.strand_force *= units.force;
 }

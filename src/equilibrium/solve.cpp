@@ -84,7 +84,8 @@ StateSummary summary_of(const Solution& solution, const scene::Scene& scene, int
           solution.energy,
           potential(solution, scene::as_given(scene)),
           index,
-          solution.topology};
+          solution.topology,
+          solution.restart};
 }
 
 Equilibria only(Solution solution, const scene::Scene& scene, int index) {
@@ -168,16 +169,19 @@ Equilibria solve_dragged(const scene::Scene& scene, const std::vector<std::strin
   } catch (const NoEquilibrium& none) {
     why = none.what();
   }
-  if (found.empty()) throw NoEquilibrium(why + "; nor a state that has left the plate, searched: " + searched);
+  if (found.empty())
+    throw NoEquilibrium(why + "; nor a state that has left the plate, searched: " + searched);
   Equilibria out;
   for (Started& state : found) {
-    Solution solution = finish(
-        state, why.empty() ? "the flat coil, which lies on the plate along its contact" : "there is no flat coil");
+    Solution solution = finish(state, why.empty() ? "the flat coil, which lies on the plate along its contact"
+                                                  : "there is no flat coil");
     out.states.push_back(summary_of(solution, scene, state.problem->total_index(state.x, state.p)));
     if (out.states.size() == 1) out.answer = std::move(solution);
   }
-  out.answer.model_reason += fmt::format("; {} steady states were found ({}), which of them a pull from rest "
-                                         "selects was not decided", found.size(), searched);
+  out.answer.model_reason += fmt::format(
+      "; {} steady states were found ({}), which of them a pull from rest "
+      "selects was not decided",
+      found.size(), searched);
   return out;
 }
 

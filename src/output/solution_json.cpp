@@ -93,20 +93,20 @@ ordered_json contact_json(const Solution& solution) {
 }
 
 /// What the plate carries: points, and lines that lie on cylinder and plate at once.
-ordered_json plate_json(const Solution& solution, const scene::Scene& scene) {
+ordered_json plate_json(const Solution& solution) {
   ordered_json plate;
   plate["force"] = finite_or_null(solution.plate_force);
   plate["arcs"] = plate["joints"] = ordered_json::array();
-  const bool flat = solution.dragged && solution.model == "planar";  // it takes the friction where it acts
-  const double mu = flat ? scene.friction.value_or(0.0) : 1.0;
   for (const ArcRecord& arc : solution.arcs)
-    if (flat && arc.kind == equilibrium::ArcKind::line)
+    if (arc.plate_force > 0.0)
       plate["arcs"].push_back({{"s_begin", finite_or_null(arc.s_begin)},
                                {"s_end", finite_or_null(arc.s_end)},
-                               {"force", finite_or_null(mu * arc.force)}});
-  for (const JointRecord& joint : solution.joints)
-    if (joint.force > 0.0 && (flat || joint.obstacle > 0))
-      plate["joints"].push_back({{"s", finite_or_null(joint.s)}, {"force", finite_or_null(mu * joint.force)}});
+                               {"force", finite_or_null(arc.plate_force)}});
+  for (const JointRecord& joint : solution.joints) {
+    const double force = joint.obstacle > 0 ? joint.force : joint.plate_force;
+    if (force > 0.0)
+      plate["joints"].push_back({{"s", finite_or_null(joint.s)}, {"force", finite_or_null(force)}});
+  }
   return plate;
 }
 
@@ -210,7 +210,7 @@ ordered_json to_json(const Solution& solution, const scene::Scene& scene) {
   json["self_distance"] = finite_or_null(solution.self_distance.value_or(std::nan("")));
   json["self_force"] = finite_or_null(solution.self_force);
   if (scene.has_obstacles() || scene.self_contact) json["contact"] = contact_json(solution);
-  if (scene.plate) json["plate"] = plate_json(solution, scene);
+  if (scene.plate) json["plate"] = plate_json(solution);
   if (solution.dragged)
     json["travel"] = {{"rate", finite_or_null(solution.travel_rate)},
                       {"pull_difference", finite_or_null(solution.pull_difference)}};

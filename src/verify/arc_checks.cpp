@@ -25,6 +25,10 @@ const Shape* shape_of(const std::vector<Shape>& shapes, int obstacle) {
   return obstacle >= 0 && obstacle < static_cast<int>(shapes.size()) ? &shapes[obstacle] : nullptr;
 }
 
+bool on_plate(const ArcRecord& arc, const scene::Scene& scene) {
+  return scene.plate && (arc.r.row(2).array() - scene.plate->height).abs().maxCoeff() < tight;
+}
+
 namespace {
 
 /// Distance of a section from an obstacle with its first and second derivative along the rod.
@@ -210,7 +214,7 @@ void integrate(const ArcRecord& arc, const Surroundings& around, const Scales& s
 
 void check_arcs(const Solution& solution, const scene::Scene& scene, const Scales& scales, CheckList& list) {
   const Stiffness law(scene.rod);
-  const std::vector<Shape> shapes = shapes_of(scene);
+  const std::vector<Shape> shapes = shapes_of(scene, solution.travel_rate);
   const Shape none = Shape::cylinder();  // of free arcs
   Collected found;
   Largest norm;
@@ -220,7 +224,8 @@ void check_arcs(const Solution& solution, const scene::Scene& scene, const Scale
     for (Eigen::Index i = 0; i < arc.s.size(); ++i) norm.add(std::abs(arc.q.col(i).norm() - 1.0));
     const Shape* below = arc.kind == ArcKind::line ? shape_of(shapes, arc.obstacle) : nullptr;
     if (arc.kind == ArcKind::line && !below) found.off_surface.add(NAN);  // a line on nothing
-    integrate(arc, {law, shapes, below ? *below : none}, scales, found);
+    const Shape pressed = !below ? none : on_plate(arc, scene) ? below->beside_plate() : *below;
+    integrate(arc, {law, shapes, pressed}, scales, found);
   }
   list.at_most("unit_quaternions", norm.value(), tight, "largest | |q| - 1 |");
   list.at_most("arc_position", found.position.value(), tight,

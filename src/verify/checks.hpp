@@ -18,6 +18,9 @@ double frame_distance(const Eigen::Vector4d& a, const Eigen::Vector4d& b);
 /// The obstacle that a contact names, null where there is none of that number.
 const Shape* shape_of(const std::vector<Shape>& shapes, int obstacle);
 
+/// Does an arc lie at the height of the scene's plate? It takes the friction along e_z then.
+bool on_plate(const equilibrium::ArcRecord& arc, const scene::Scene& scene);
+
 /// Empty when counts, shapes, order of s and finiteness are right; otherwise what is wrong.
 std::string structure_error(const equilibrium::Solution& solution);
 

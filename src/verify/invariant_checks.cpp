@@ -69,8 +69,8 @@ void check_invariants(const Solution& solution, const scene::Scene& scene, const
   Drift hamiltonian, torque, axial_force, twist;
   Largest free_force;
   // Walls push across e_z and have moments about it: the force along all of them is what is kept, if there is such a way.
-  const bool walls = !scene.walls.empty();
-  Vector3d strand_push = Vector3d::Zero();  // of other strands, up to here
+  const bool walls = !scene.walls.empty(), dragged = solution.dragged;  // friction changes what it works on
+  Vector3d strand_push = Vector3d::Zero();                              // of other strands, up to here
   double strand_torque = 0.0;
   const std::optional<Vector3d> along = walls ? along_all(scene.walls) : Vector3d(Vector3d::UnitZ());
   for (std::size_t k = 0; k < solution.arcs.size(); ++k) {
@@ -92,17 +92,18 @@ void check_invariants(const Solution& solution, const scene::Scene& scene, const
       if (arc.kind == equilibrium::ArcKind::free) free_force.add((x.n - arc.n.col(0)).norm() / scales.force);
     }
   }
-  list.at_most("hamiltonian_drift", hamiltonian.value(), tight, "range of H = m·u - W + n·d3, / max(1, T)");
-  if (!walls)
+  if (!dragged)
+    list.at_most("hamiltonian_drift", hamiltonian.value(), tight, "range of H = m·u - W + n·d3, / max(1, T)");
+  if (!walls && solution.travel_rate == 0.0)
     list.at_most("axial_torque_drift", torque.value(), tight, "range of (m + r×n)·e_z, / max(1, T)");
-  if (along)
+  if (along && !dragged)
     list.at_most("axial_force_drift", axial_force.value(), tight,
                  walls ? "range of the force along the walls, / max(1, T)" : "range of n_z, / max(1, T)");
   list.at_most("free_arc_force", free_force.value(), tight, "change of n along free arcs, / max(1, T)");
   const bool isotropic =
       scene.rod.bending_stiffness == scene.rod.bending_stiffness_2 && scene.rod.natural_curvature == 0.0;
   if (isotropic) list.at_most("twist_drift", twist.value(), tight, "range of m·d3, / max(1, sqrt(T))");
-  check_scaling(solution, scene, scales, list);
+  if (!dragged) check_scaling(solution, scene, scales, list);
   if (!solution.has_cylinder || solution.joints.back().kind != JointKind::infinity) return;
   const double at_end = law.hamiltonian(last_section(solution.arcs.back()));
   list.at_most("infinite_tail", std::abs(at_end - solution.T) / scales.force, tight,

@@ -42,7 +42,7 @@ double distance_that_counts(const Solution& solution, std::size_t k) {
 
 void check_joints(const Solution& solution, const scene::Scene& scene, const Scales& scales,
                   CheckList& list) {
-  const std::vector<Shape> shapes = shapes_of(scene);
+  const std::vector<Shape> shapes = shapes_of(scene, solution.travel_rate);
   Largest position, frame, moment, force, surface, tangency, holding, apart, along;
   Smallest contact, between;
   for (std::size_t k = 0; k < solution.joints.size(); ++k) {
@@ -66,7 +66,13 @@ void check_joints(const Solution& solution, const scene::Scene& scene, const Sca
       const Shape* shape = shape_of(shapes, joint.obstacle);
       // balance of the joint: n(after) - n(before) + f N = 0
       const Vector3d outward = shape ? shape->outward(after.r) : Vector3d(Vector3d::Constant(NAN));
-      jump += joint.force * outward;
+      if (shape) {
+        const ArcRecord &left = solution.arcs[k - 1], &right = solution.arcs[k];
+        const bool flat[] = {on_plate(left, scene), on_plate(right, scene)};
+        const bool held = (flat[0] && left.kind == equilibrium::ArcKind::line) ||
+                          (flat[1] && right.kind == equilibrium::ArcKind::line) || (flat[0] && flat[1]);
+        jump += joint.force * (held ? shape->beside_plate() : *shape).push(after.r, tangent(after));
+      }
       surface.add(shape ? std::abs(shape->gap(after.r)) : NAN);
       tangency.add(std::abs(outward.dot(tangent(after))));
     }
@@ -160,10 +166,12 @@ void check_strut_ends(const End (&ends)[2], const Scales& scales, CheckList& lis
 void check_ends(const Solution& solution, const scene::Scene& scene, const Scales& scales, CheckList& list) {
   const Vector3d right(std::cos(solution.phi / 2), std::sin(solution.phi / 2), 0.0);
   const Vector3d left(-right.x(), right.y(), 0.0);
-  const End ends[2] = {{solution.joints.front(), first_section(solution.arcs.front()), solution.T * left,
-                        -1.0, scene.ends.left_kind() == scene::EndKind::clamped},
-                       {solution.joints.back(), last_section(solution.arcs.back()), solution.T * right, 1.0,
-                        scene.ends.right_kind() == scene::EndKind::clamped}};
+  const double difference = solution.pull_difference;
+  const End ends[2] = {
+      {solution.joints.front(), first_section(solution.arcs.front()), (solution.T - difference) * left, -1.0,
+       scene.ends.left_kind() == scene::EndKind::clamped},
+      {solution.joints.back(), last_section(solution.arcs.back()), (solution.T + difference) * right, 1.0,
+       scene.ends.right_kind() == scene::EndKind::clamped}};
   if (solution.has_cylinder) {
     check_capstan_ends(ends, scales, list);
   } else {
@@ -188,6 +196,7 @@ void check_totals(const Solution& solution, const scene::Scene& scene, const Sca
   for (const ArcRecord& arc : solution.arcs) sum += arc.force;
   for (const JointRecord& joint : solution.joints) {
     if (joint.kind != JointKind::touch && joint.kind != JointKind::edge) continue;
+    if (solution.has_cylinder && joint.obstacle > 0) continue;  // a plate's
     sum += joint.force;
     if (!any) first = joint.angle;
     last = joint.angle;
@@ -210,6 +219,10 @@ void check_totals(const Solution& solution, const scene::Scene& scene, const Sca
                std::max(std::abs(solution.T - scene.load.tension) / scales.force,
                         std::abs(solution.phi - scene.load.angle)),
                tight, "stored T and phi against those of the scene, T / max(1, T)");
+  if (solution.dragged)
+    list.at_most("axial_balance", std::abs(solution.F0.value_or(NAN) - solution.plate_force) / scales.force,
+                 tight,
+                 "reported F0, what the cylinder drags with, against what the plate carries, / max(1, T)");
   if (any) {
     list.at_most("contact_angle", std::abs(0.5 * (last - first) - solution.phi_star), tight,
                  "reported phi_star against the outermost contacts");

@@ -46,7 +46,7 @@ double surface_pressure(const Section& section, double bending_stiffness) {
   const Vector3d w = m.cross(t) / B;                           // t'
   const Vector3d m_rate = n.cross(t);                          // m'
   const Vector3d w_rate = (m_rate.cross(t) + m.cross(w)) / B;  // w' = (t (n·t) - n + m×w)/B
-  // B w'' = m''×t + 2 m'×w + m×w' with m'' = n'×t + n×w; the p-part is (n'×t)×t = t (n'·t) - n', n' = -pN
+  // B w'' = m''×t + 2 m'×w + m×w' with m'' = n'×t + n×w; the p-part is (n'×t)×t = t (n'·t) - n', n' = -p(N + mu d), d·N = 0
   const Vector3d rest = n.cross(w).cross(t) + 2.0 * m_rate.cross(w) + m.cross(w_rate);
   const double without_p =
       3.0 * w.head<2>().squaredNorm() + 4.0 * t.head<2>().dot(w_rate.head<2>()) + N.dot(rest) / B;
@@ -140,7 +140,7 @@ void RodFlow::Memory::rates(const double* y, double* rate) const {
   if (!on_surface()) return;
   const double p =
       shape.wall() ? plane_pressure(x, stiffness, *shape.wall()) : surface_pressure(x, stiffness.K[0]);
-  put<3>(rate + 10, -p * shape.wall().value_or(Vector3d(x.r.x(), x.r.y(), 0.0)));
+  put<3>(rate + 10, -p * shape.push(x.r, t));
   rate[13] = p;
 }
 

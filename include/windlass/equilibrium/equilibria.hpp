@@ -24,6 +24,7 @@ struct StateSummary {
   double potential = 0.0;                    ///< see potential()
   int index = 0;                             ///< negative directions of the whole rod
   std::string topology;
+  Restart restart;
 };
 
 struct Equilibria {

@@ -28,7 +28,6 @@ std::shared_ptr<RodProblem> reopen(const scene::Scene& scene, const Restart& res
                                    const std::vector<std::string>& keys);
 
 /// Largest drift of the invariants along the rod and the residual of the force balance; fills solution.invariants.
-/// @param friction  mu of a cylinder that slips along the rod, 0: it stands
-void measure_invariants(Solution& solution, const chain::RodKind& kind, double friction = 0.0);
+void measure_invariants(Solution& solution, const chain::RodKind& kind);
 
 }  // namespace windlass::equilibrium

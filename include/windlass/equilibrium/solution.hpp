@@ -35,6 +35,7 @@ struct ArcRecord {
   double s_begin = 0.0, s_end = 0.0;  ///< material arclength, s = 0 at the mid-point [ρ]
   double force = 0.0;                 ///< line: ∫ p ds [EI/ρ²]; free: 0
   int obstacle = -1;                  ///< line: the obstacle it lies on, its place in the scene
+  double plate_force = 0.0;  ///< line on a plate, too: what that carries [EI/ρ²]; not kept in run folders
   Eigen::VectorXd s;
   Eigen::Matrix3Xd r;
   Eigen::Matrix4Xd q;
@@ -59,6 +60,7 @@ struct JointRecord {
   /// size of the force between them, along the line between their places.
   int partner = -1;
   double strand_force = 0.0;
+  double plate_force = 0.0;  ///< of a plate at the same place [EI/ρ²]; not kept in run folders
   /// Is it one of the touches that a line between strands consists of? Not kept in run folders.
   bool along_strand = false;
   Eigen::Vector3d holding_direction() const { return {std::cos(angle), std::sin(angle), 0.0}; }
@@ -117,10 +119,10 @@ struct Solution {
   bool dragged = false;
   double travel_rate = 0.0;      ///< ω: the rod runs along itself at ω times the cylinder's speed
   double pull_difference = 0.0;  ///< τ: the pulls are T ± τ [EI/ρ²]
-  double phi_star = 0.0;     ///< half the angle between the outermost contacts [rad]
-  double tilt = 0.0;         ///< inclination of the mid-point tangent to the plane z = 0 [rad]
-  double z_span = 0.0;       ///< max z - min z over the rod [ρ]
-  double energy = 0.0;       ///< bending and twisting energy [EI/ρ]
+  double phi_star = 0.0;         ///< half the angle between the outermost contacts [rad]
+  double tilt = 0.0;             ///< inclination of the mid-point tangent to the plane z = 0 [rad]
+  double z_span = 0.0;           ///< max z - min z over the rod [ρ]
+  double energy = 0.0;           ///< bending and twisting energy [EI/ρ]
   /// Closest approach of the rod to itself, see chain::self_distance [ρ]; empty where it nowhere comes back to itself.
   std::optional<double> self_distance;
   std::array<double, 2> self_s = {0.0, 0.0};  ///< between these places

@@ -13,9 +13,17 @@ class Shape {
  public:
   static Shape cylinder() { return {}; }
   static Shape of(const scene::Wall& wall);
+  static Shape of(const scene::Plate& plate);
+  /// The cylinder slipping towards +e_z along a rod that runs along itself at `travel` times its speed.
+  static Shape slipping(double friction, double travel);
+  /// The same where a plate takes what the friction has along e_z.
+  Shape beside_plate() const;
 
   double gap(const Eigen::Vector3d& r) const;
-  Eigen::Vector3d outward(const Eigen::Vector3d& r) const;  ///< direction of the contact force on the rod
+  Eigen::Vector3d outward(
+      const Eigen::Vector3d& r) const;  ///< normal part of the contact force on the rod, 1
+  /// Its whole contact force, N + mu d, on a rod with the tangent t.
+  Eigen::Vector3d push(const Eigen::Vector3d& r, const Eigen::Vector3d& t) const;
   /// Second derivative of the gap along a unit tangent t, but for the part that the curvature of the rod has.
   double bend(const Eigen::Vector3d& r, const Eigen::Vector3d& t) const;
   /// The outward normal of a wall, the same everywhere.
@@ -24,9 +32,12 @@ class Shape {
  private:
   std::optional<Eigen::Vector3d> normal_;  ///< of a wall: −n
   double distance_ = 0.0;
+  double friction_ = 0.0, travel_ = 0.0;
+  bool plate_takes_ = false;
 };
 
 /// All shapes of a scene, in the order that contacts name them by.
-std::vector<Shape> shapes_of(const scene::Scene& scene);
+/// @param travel  of the rod along itself, over the speed of a cylinder that slips along it
+std::vector<Shape> shapes_of(const scene::Scene& scene, double travel);
 
 }  // namespace windlass::verify

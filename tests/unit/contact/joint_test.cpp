@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "windlass/contact/planar_joints.hpp"
+#include "windlass/contact/plate_joints.hpp"
 #include "windlass/contact/spatial_joints.hpp"
 #include "windlass/obstacle/plane.hpp"
 
@@ -25,6 +26,11 @@ constexpr double bound = 1e-9;  // entries of order one
 const obstacle::SurfacePointer& wall() {
   static const obstacle::SurfacePointer plane =
       std::make_shared<obstacle::Plane>(Eigen::Vector3d(0.3, -0.5, 0.8), 0.7);
+  return plane;
+}
+const obstacle::SurfacePointer& plate() {
+  static const obstacle::SurfacePointer plane =
+      std::make_shared<obstacle::Plane>(Eigen::Vector3d::UnitZ(), 0.3);
   return plane;
 }
 contact::spatial::Edge wall_edge(Side line) { return {line, 1.2, wall(), {0.8, 1.0, 1.9}, {0.2, -0.3, 0.4}}; }
@@ -115,7 +121,8 @@ void check_drag(const Joint& joint, Side side) {
     return joint.drag(side, place.data(), loads, gradient).value();
   };
   for (int k = 0; k < joint.tangent(); ++k) {
-    const SmallVector change = (at(moved(joint, w, k, h), g).value - at(moved(joint, w, k, -h), g).value) / (2.0 * h);
+    const SmallVector change =
+        (at(moved(joint, w, k, h), g).value - at(moved(joint, w, k, -h), g).value) / (2.0 * h);
     BOOST_TEST((change - SmallVector(at(w, g).by_w.col(k))).norm() < bound);
   }
   for (int k = 0; k < 2; ++k) {
@@ -184,6 +191,12 @@ BOOST_AUTO_TEST_CASE(attachments_of_spatial_joints) {
   check("touch of a wall", Touch(wall()), {Side::left, Side::right});
   check("edge on a wall", wall_edge(Side::left), {Side::left, Side::right});
   check("section of a line on a wall", SurfaceSection(wall()), {Side::left, Side::right});
+  check("stop on a line", Stopped(obstacle::unit_cylinder(), plate(), false), {Side::left, Side::right});
+  for (const Side flat : {Side::left, Side::right}) {
+    check("edge on a plate", FlatEdge(flat, 1.2, obstacle::unit_cylinder(), plate()),
+          {Side::left, Side::right});
+    check("lift off a plate", LiftOff(flat, obstacle::unit_cylinder(), plate()), {Side::left, Side::right});
+  }
   check("end", End(Side::left, false), {Side::left});
   for (const bool under_thrust : {false, true})
     for (const bool pinned : {false, true})
@@ -194,6 +207,10 @@ BOOST_AUTO_TEST_CASE(location_conditions) {
   check_location("planar touch", contact::planar::Touch(), 1);
   check_location("planar edge", contact::planar::Edge(Side::left, 1.2), 1);
   check_location("spatial touch", contact::spatial::Touch(), 3);
+  using namespace contact::spatial;
+  check_location("stop on a line", Stopped(obstacle::unit_cylinder(), plate(), false), 2);
+  check_location("edge on a plate", FlatEdge(Side::left, 1.2, obstacle::unit_cylinder(), plate()), 3);
+  check_location("lift off a plate", LiftOff(Side::left, obstacle::unit_cylinder(), plate()), 2);
   check_location("spatial edge", contact::spatial::Edge(Side::left, 1.2), 3);
   check_location("spatial edge of a line to the right", contact::spatial::Edge(Side::right, 1.2), 3);
   check_location("touch of a wall", contact::spatial::Touch(wall()), 3);

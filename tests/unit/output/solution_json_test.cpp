@@ -20,7 +20,7 @@ BOOST_AUTO_TEST_CASE(the_object_has_the_promised_keys) {
   auto scene = test::capstan_scene(1.0, 2 * std::numbers::pi);
   auto solution = test::planar_capstan(1.0, 2 * std::numbers::pi);
   solution.F0 = 0.3 * solution.R_tot;
-  solution.stability = equilibrium::Stability{0, 0, {0.5}, 0.0, false, {}};
+  solution.stability = equilibrium::Stability{0, 0, {0.5}, 0.0, false, {}, {}};
   const auto json = output::to_json(solution, scene);
   const std::vector<std::string> expected = {"parameters",
                                              "model",

@@ -1,0 +1,104 @@
+// A cylinder that slides through a rod held back by a plate, as a user has it computed.
+
+#include <array>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "support/csv.hpp"
+#include "support/run_program.hpp"
+
+using namespace windlass::test;
+
+namespace {
+
+std::vector<std::string> sliding(const std::string& command, const std::vector<std::string>& settings) {
+  std::vector<std::string> out = {command, shipped_scene("capstan-2pi-plate")};
+  for (const std::string& setting : settings) out.insert(out.end(), {"--set", setting});
+  return out;
+}
+
+nlohmann::json solved(const std::vector<std::string>& settings) {
+  std::vector<std::string> command = sliding("solve", settings);
+  command.push_back("--json");
+  const TemporaryFolder folder;
+  const Outcome outcome = run_program(command, folder.path());
+  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  return nlohmann::json::parse(outcome.out);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(sliding_cylinder)
+
+BOOST_AUTO_TEST_CASE(flat_coil_on_its_plate_is_the_closed_form) {
+  // PHYSICS: R_tot = (2T − 1) phi_star + √(4T − 1), F0 = mu R_tot, and the plate carries as much.
+  const std::vector<std::array<double, 3>> cases = {
+      {0.7, 0.32, 2.0}, {1.0, 1e-3, 2.0}, {2.0, 1.0, 2.0}, {5.0, 0.32, 1.0}, {3.0, 0.32, 4.0}};
+  for (const auto& [T, mu, phi] : cases) {
+    const nlohmann::json state =
+        solved({"rod.length=70", "load.tension=" + std::to_string(T),
+                "cylinder.friction=" + std::to_string(mu), "load.angle=" + std::to_string(phi) + " pi"});
+    const double angle = phi * M_PI, phi_star = 0.5 * angle - std::acos(1.0 - 0.5 / T);
+    const double expected = mu * ((2.0 * T - 1.0) * phi_star + std::sqrt(4.0 * T - 1.0));
+    const double drag = state["F0"].get<double>(), plate = state["plate"]["force"].get<double>();
+    BOOST_TEST(std::abs(drag / expected - 1.0) < 1e-10);
+    BOOST_TEST(std::abs(plate / drag - 1.0) < 1e-12);
+    BOOST_TEST(state["stability"]["index"] == 0);
+    BOOST_TEST(!state["stability"]["leading"].empty());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(helices_are_dragged_up_to_a_fold) {
+  // The fold at L = 2 pi + 8, blocked and free, by an independent integration (Gragg's method, order 14, of the first-order
+  // equations): it places the rod along itself otherwise, which a tail of this length feels by 1e-7 and 4e-7.
+  for (const auto& [travel, fold] : {std::pair{"blocked", 0.01352934}, {"free", 0.01371664}}) {
+    const TemporaryFolder folder;
+    const std::string run = (folder / "run").string();
+    std::vector<std::string> command =
+        sliding("continue", {"rod.length=14.283185307179586", "load.tension=1.01", "model.kind=kirchhoff",
+                             std::string("ends.travel=") + travel, "continuation.parameter=cylinder.friction",
+                             "continuation.from=0.005", "continuation.to=0.03"});
+    command.insert(command.end(), {"--out", run, "--quiet"});
+    BOOST_REQUIRE(run_program(command, folder.path()).status == 0);
+    const Outcome verified = run_program({"verify", run}, folder.path());
+    BOOST_TEST(verified.status == 0, verified.out);
+    const auto points = nlohmann::json::parse(std::ifstream(run + "/special_points.json"));
+    BOOST_REQUIRE(points.size() == 1u);
+    BOOST_TEST(points[0]["type"] == "fold");
+    BOOST_TEST(std::abs(points[0]["parameter"].get<double>() - fold) < 1e-6);
+    // Before the fold the helix is stable, behind it one real eigenvalue is negative.
+    const Table table = read_csv(std::filesystem::path(run) / "branches.csv");
+    BOOST_TEST(table.rows.front().at("index") == "0");
+    BOOST_TEST(table.rows.back().at("index") == "1");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(solve_lists_the_states_that_have_left_the_plate) {
+  const nlohmann::json state =
+      solved({"rod.length=22.283185307179586", "load.tension=0.57", "cylinder.friction=0.1"});
+  BOOST_REQUIRE(state["states"].size() == 3u);
+  int unstable = 0;
+  for (const auto& one : state["states"]) {
+    BOOST_TEST(std::abs(one["F0"].get<double>() / (0.1 * one["R_tot"].get<double>()) - 1.0) <
+               1e-9);  // blocked
+    unstable += one["index"].get<int>();
+  }
+  BOOST_TEST(unstable == 1);
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_slide_is_refused) {
+  const TemporaryFolder folder;
+  for (const auto& [setting, why] : {std::pair{"plate.side=below", "carry the rod away"},
+                                     {"cylinder.friction=0", "must be > 0"},
+                                     {"plate.outer_radius=0.5", "must be >= 1"},
+                                     {"rod.length=\"inf\"", "must be finite with a plate"},
+                                     {"ends.kind=clamped", "must be \"moment_free\""}}) {
+    const Outcome outcome = run_program(sliding("solve", {setting}), folder.path());
+    BOOST_TEST(outcome.status == 1);
+    BOOST_TEST(outcome.err.find(why) != std::string::npos, outcome.err);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
