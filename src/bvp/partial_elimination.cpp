@@ -32,9 +32,9 @@ auto pack(const double* column, int i) { return Eigen::Map<const Pack, Eigen::Al
 void PartialElimination::resize(int eliminated, int kept) {
   eliminated_ = eliminated;
   kept_ = kept;
-  const int size = eliminated + kept, padded = (size + width - 1) / width * width;
-  assert(padded <= Padded::most);
-  columns_.setZero(padded, eliminated);
+  const auto padded = [](int count) { return (count + width - 1) / width * width; };
+  assert(padded(eliminated + kept) <= Padded::most);
+  columns_.setZero(padded(eliminated + kept), padded(eliminated));
   inverse_pivot_.setZero(eliminated);
 }
 
@@ -61,7 +61,7 @@ void PartialElimination::factor(Eigen::MatrixXd& full) {
   }
 }
 
-// Both start at a whole pack: what a column holds above its diagonal is zero, and so is what lies beyond its end.
+// Starts at a whole pack: what a column holds above its diagonal is zero, and so is what lies beyond its end.
 void PartialElimination::reduce(double* f, double* g) const {
   Padded v(f, eliminated_, g, kept_);
   const int size = eliminated_ + kept_;
@@ -74,14 +74,23 @@ void PartialElimination::reduce(double* f, double* g) const {
   std::copy_n(v.values.begin() + eliminated_, kept_, g);
 }
 
+// By blocks of as many unknowns as a pack holds, so that no pack is read right after one of its numbers was written: the
+// processor would wait for it. Columns that there are not are zero.
 void PartialElimination::expand(double* f, const double* y) const {
   Padded v(f, eliminated_, y, kept_);
-  const int size = eliminated_ + kept_;
-  for (int k = eliminated_ - 1; k >= 0; --k) {
-    const double* column = columns_.col(k).data();
-    Pack sum = Pack::Zero();
-    for (int i = (k + 1) / width * width; i < size; i += width) sum += v.pack(i) * pack(column, i);
-    v.values[k] = v.values[k] * inverse_pivot_(k) - sum.sum();
+  const int last = static_cast<int>(columns_.rows()) - width;
+  for (int first = (eliminated_ - 1) / width * width; first >= 0; first -= width) {
+    std::array<Pack, width> sums;
+    for (Pack& sum : sums) sum.setZero();
+    for (int i = last; i > first; i -= width)  // what was written last comes last
+      for (int c = 0; c < width; ++c) sums[c] += v.pack(i) * pack(columns_.col(first + c).data(), i);
+    std::array<double, width> own;
+    std::copy_n(&v.values[first], width, own.begin());
+    for (int c = std::min(width, eliminated_ - first) - 1; c >= 0; --c) {
+      own[c] = own[c] * inverse_pivot_(first + c) - sums[c].sum();
+      for (int r = c + 1; r < width; ++r) own[c] -= columns_(first + r, first + c) * own[r];
+    }
+    std::copy_n(own.begin(), width, &v.values[first]);
   }
   std::copy_n(v.values.begin(), eliminated_, f);
 }
