@@ -16,9 +16,6 @@ CollocationArc<Density>::CollocationArc(Density density, std::vector<double> mes
   for (auto& factor : element_factors_) factor.resize(inner(), E);
   for (auto& factor : node_factors_) factor.resize(D, E);
   for (Held& held : held_) held.direction.setZero(D);
-  const int columns = inner() + 2 * D;
-  increments_.setZero(2 * A * stages, columns);
-  weighted_.setZero(2 * A * stages, columns);
   element_.setZero(inner() + E, inner() + E);
   node_.setZero(D + E, D + E);
 }
@@ -167,15 +164,19 @@ void CollocationArc<Density>::element_hessian(const Nodes& q, const ArcPoint& at
   const int m = stages(), columns = inner() + 2 * D, length = inner() + E - 1;
   const double h = mesh_[element + 1] - mesh_[element], inverse = 1.0 / (h * at.length);
   const Eigen::Map<const Force> n(at.n);
-  std::array<Eigen::Matrix<double, A, D>, max_points> basis;
-  std::array<Ambient, max_points> ambient;
+  // Sums over the Gauss points in ambient coordinates, a Lagrange point or a pair of them each; projected at the end.
+  using Block = Eigen::Matrix<double, A, A>;
+  std::array<std::array<Block, max_points>, max_points> pairs;
+  std::array<Eigen::Matrix<double, P, A>, max_points> forces;
+  std::array<Ambient, max_points> ambient, by_length;
+  std::array<Block, max_points> of_value, of_slope;
   for (int i = 0; i <= m; ++i) {
-    basis[i] = density_.basis(q.col(i));
-    ambient[i].setZero();
+    for (int j = 0; j <= i; ++j) pairs[i][j].setZero();
+    forces[i].setZero(), ambient[i].setZero(), by_length[i].setZero();
   }
-  k.setZero();
+  k.bottomRows(P + 1).setZero();
   Ambient value, slope;
-  Eigen::Matrix<double, 2 * A, 1> gz, by_length;
+  Eigen::Matrix<double, 2 * A, 1> gz;
   Eigen::Matrix<double, 2 * A, 2 * A> hz;
   Force d;
   Eigen::Matrix<double, P, A> dd;
@@ -184,27 +185,38 @@ void CollocationArc<Density>::element_hessian(const Nodes& q, const ArcPoint& at
     density_.second(value, slope, n, gz, hz, d, dd);
     const double w = h * table_.weight(g), wl = w * at.length;
     // Derivatives with the length: q' = q_σ/(h ℓ).
-    by_length.template head<A>() = gz.template head<A>() - hz.template topRightCorner<A, A>() * slope;
-    by_length.template tail<A>() = -hz.template bottomRightCorner<A, A>() * slope;
+    const Ambient value_by_length = gz.template head<A>() - hz.template topRightCorner<A, A>() * slope,
+                  slope_by_length = -hz.template bottomRightCorner<A, A>() * slope;
+    const Block qq = wl * hz.template topLeftCorner<A, A>(), qs = wl * hz.template topRightCorner<A, A>(),
+                sq = wl * hz.template bottomLeftCorner<A, A>(),
+                ss = wl * hz.template bottomRightCorner<A, A>();
     for (int i = 0; i <= m; ++i) {
-      Eigen::Matrix<double, 2 * A, D> b;  // increments of (q, q') at the Gauss point
-      b.template topRows<A>() = table_.value(g, i) * basis[i];
-      b.template bottomRows<A>() = (inverse * table_.slope(g, i)) * basis[i];
-      const int c = column(i);
-      increments_.template block<2 * A, D>(2 * A * g, c) = b;
-      weighted_.template block<2 * A, D>(2 * A * g, c) = wl * (hz * b);
-      k.template block<P, D>(columns, c) -= (wl * table_.value(g, i)) * (dd * basis[i]);
-      k.template block<1, D>(length, c) += w * by_length.transpose() * b;
-      ambient[i] += (wl * table_.value(g, i)) * gz.template head<A>() +
-                    (wl * inverse * table_.slope(g, i)) * gz.template tail<A>();
+      const double v = table_.value(g, i), s = inverse * table_.slope(g, i);
+      of_value[i] = v * qq + s * qs;
+      of_slope[i] = v * sq + s * ss;
+      for (int j = 0; j <= i; ++j) pairs[i][j] += v * of_value[j] + s * of_slope[j];
+      forces[i] -= (wl * v) * dd;
+      by_length[i] += (w * v) * value_by_length + (w * s) * slope_by_length;
+      ambient[i] += (wl * v) * gz.template head<A>() + (wl * s) * gz.template tail<A>();
     }
     k.template block<1, P>(length, columns) -= w * d.transpose();
-    k(length, length) -= w / at.length * slope.dot(by_length.template tail<A>());
+    k(length, length) -= w / at.length * slope.dot(slope_by_length);
   }
-  k.topLeftCorner(columns, columns).noalias() += increments_.transpose() * weighted_;
+  std::array<Eigen::Matrix<double, A, D>, max_points> basis;
   for (int i = 0; i <= m; ++i) {
+    const int c = column(i);
+    basis[i] = density_.basis(q.col(i));
+    k.template block<P, D>(columns, c) = forces[i] * basis[i];
+    k.template block<1, D>(length, c) = by_length[i].transpose() * basis[i];
+    for (int j = 0; j <= i; ++j) {
+      const Eigen::Matrix<double, D, D> block = basis[i].transpose() * (pairs[i][j] * basis[j]);
+      if (c >= column(j))
+        k.template block<D, D>(c, column(j)) = block;
+      else
+        k.template block<D, D>(column(j), c) = block.transpose();
+    }
     const double radial = density_.radial(q.col(i), ambient[i]);
-    for (int j = 0; j < D; ++j) k(column(i) + j, column(i) + j) += radial;
+    for (int j = 0; j < D; ++j) k(c + j, c + j) += radial;
   }
 }
 

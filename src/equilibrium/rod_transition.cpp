@@ -110,9 +110,18 @@ bool extrapolate(Entry& touch, double p) {
   constexpr double nearest = 1e-4;  // of p: rounding is amplified by its inverse, the error is (8e-4)⁴
   const double distance = std::copysign(nearest * std::abs(p), touch.p(0) - p);
   std::array<Vector, levels> x;
-  for (int k = levels; k-- > 0;) {  // from where the equations are far from singular
-    touch.p(0) = p + distance * (1 << k);
+  // The nearer to the crossing, the nearer Newton has to start: outward from where the state is known, if it is known so
+  // near, and along the secant.
+  const bool outward = std::abs(touch.p(0) - p) < std::abs(distance) * (1 << (levels - 1));
+  Vector slope = Vector::Zero(touch.x.size());
+  for (int n = 0; n < levels; ++n) {
+    const int k = outward ? n : levels - 1 - n;
+    const Vector last = touch.x;
+    const double next = p + distance * (1 << k), step = next - touch.p(0);
+    touch.x += step * slope;
+    touch.p(0) = next;
     if (touch.problem->polish(touch.x, touch.p, 18) < 0) return false;
+    if (step != 0.0) slope = (touch.x - last) / step;
     x[k] = touch.x;
   }
   touch.x = limit_at_zero(x).value;

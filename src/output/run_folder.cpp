@@ -103,7 +103,7 @@ RunWriter RunWriter::resume(const fs::path& folder, const std::optional<Extent>&
   writer.started_ = true;
   writer.branches_text_ = read_file(folder / branches_file);
   writer.save_every_ = save_every;
-  if (save_every) writer.set_pause({});
+  if (save_every) writer.set_pause();
   writer.info_ = std::move(run.info);
   writer.store_ = std::move(run.points);
   for (BranchRow& row : run.rows) {
@@ -159,7 +159,8 @@ void RunWriter::commit() {
   const auto begin = std::chrono::steady_clock::now();
   write_stale();
   last_commit_ = std::chrono::steady_clock::now();
-  set_pause(last_commit_ - begin);
+  commit_takes_ = last_commit_ - begin;
+  set_pause();
 }
 
 void RunWriter::write_stale() {
@@ -171,16 +172,16 @@ void RunWriter::write_stale() {
   committed_ = store_.size();
 }
 
-void RunWriter::set_pause(std::chrono::duration<double> writing) {
-  // At most 5 % of the time of a run goes into rewriting points.h5.
-  const std::chrono::duration<double> rare = 20.0 * writing;
+void RunWriter::set_pause() {
+  // At most 5 % of the time of a run goes into rewriting points.h5 and the checkpoint.
+  const std::chrono::duration<double> rare = 20.0 * (commit_takes_ + checkpoint_takes_);
   special_pause_ = save_every_ ? std::chrono::duration<double>(*save_every_) : rare;
   pause_ = save_every_ ? special_pause_ : std::max(std::chrono::duration<double>(1.0), rare);
 }
 
 void RunWriter::checkpoint(nlohmann::json state) {
-  const auto begin = std::chrono::steady_clock::now();
   if (committed_ != store_.size() || special_stale_) commit();
+  const auto begin = std::chrono::steady_clock::now();
   const nlohmann::json checkpoint = {{"points", store_.size()},
                                      {"special_points", special_points_.size()},
                                      {"lost_branches", info_.lost_branches.size()},
@@ -189,7 +190,8 @@ void RunWriter::checkpoint(nlohmann::json state) {
   nlohmann::json::to_cbor(checkpoint, bytes);
   replace_file(folder_ / checkpoint_file, std::string_view(sealed({bytes.data(), bytes.size()})));
   last_checkpoint_ = std::chrono::steady_clock::now();
-  set_pause(last_checkpoint_ - begin);
+  checkpoint_takes_ = last_checkpoint_ - begin;
+  set_pause();
 }
 
 void RunWriter::finish(const std::string& status, const Timings& timings, ordered_json summary) {

@@ -24,12 +24,15 @@ constexpr double negligible = 1e-13;
 constexpr double most_dominance = 1e6;
 /// Of the residual, relative to θ: the error of the quotient is its square.
 constexpr double tolerance = 1e-7;
-/// Of SLEPc. A negative μ is often not the nearest to zero: small positive ones of a long rod's tails have θ that dwarf its
-/// own. It is found at once when some of those are known, and takes hundreds of solutions when they are not.
-constexpr PetscInt most_restarts = 500, few_restarts = 4;
-/// Searches for a negative θ, with `beside` more of the others taken out each time. What they do not find is next to
-/// infinite: that of a contact whose force is the rounding of zero, at an event.
-constexpr int most_searches = 4, beside = 5;
+/// Of SLEPc.
+constexpr PetscInt most_restarts = 500, most_restarts_for_negative = 8;
+/// Searches for negative θ. After one that fails `beside` of the positive ones are taken out, and the next has twice the
+/// vectors. What it does not find either is next to infinite: that of a contact whose force is the rounding of zero, at an
+/// event.
+constexpr int most_searches = 2, beside = 5;
+/// The order in which negative θ come first. They are often dwarfed by those of small positive μ, of a long rod's twisting:
+/// restarts that kept the least θ alone would forget the positive ones, and find them again and again.
+constexpr EPSWhich negative_first = EPS_WHICH_USER;
 
 }  // namespace
 
@@ -46,6 +49,7 @@ KrylovSpectrum::KrylovSpectrum(Index points) : points_(points) {
   BV basis = nullptr;
   check(EPSGetBV(eps_, &basis));
   check(BVSetType(basis, BVVECS));  // a few short vectors: PETSc's own loops are faster than a BLAS
+  check(EPSSetConvergenceTestFunction(eps_, error_of, this, nullptr));
   check(EPSSetFromOptions(eps_));
 }
 
@@ -67,6 +71,30 @@ PetscErrorCode KrylovSpectrum::apply(Mat shell, Vec in, Vec out) {
   });
 }
 
+/// Negative θ before the others, each by size. What is next to zero has no sign.
+PetscErrorCode KrylovSpectrum::prefer_negative(PetscScalar a, PetscScalar, PetscScalar b, PetscScalar,
+                                               PetscInt* result, void* context) {
+  return petsc::guard([&] {
+    double& scale = static_cast<KrylovSpectrum*>(context)->scale_;
+    scale = std::max({scale, std::abs(a), std::abs(b)});
+    const auto is_negative = [&](double theta) { return theta < -negligible * scale; };
+    if (is_negative(a) != is_negative(b))
+      *result = is_negative(a) ? -1 : 1;
+    else
+      *result = std::abs(a) > std::abs(b) ? -1 : std::abs(a) < std::abs(b) ? 1 : 0;
+  });
+}
+
+PetscErrorCode KrylovSpectrum::error_of(EPS, PetscScalar theta, PetscScalar, PetscReal residual,
+                                        PetscReal* error, void* context) {
+  const auto& self = *static_cast<const KrylovSpectrum*>(context);
+  *error = residual / std::abs(theta);
+  // In the search for negative ones the others help, and are no reason to stop.
+  constexpr double not_wanted = 1.0;
+  if (self.which_ == negative_first && !(theta < -negligible * self.scale_)) *error = not_wanted;
+  return 0;
+}
+
 void KrylovSpectrum::project_out(Eigen::Ref<VectorXd> y) const {
   for (const Pair& known : found_) y -= known.y.dot(y) * known.y;
 }
@@ -85,14 +113,17 @@ Pair KrylovSpectrum::pair(VectorXd y, double theta) const {
 bool KrylovSpectrum::find(EPSWhich which, int wanted) {
   // The extreme θ stand out: a few vectors suffice (SLEPc's default of 16 are 16 solutions), and where they do not it
   // restarts, which costs as much as two of them on small problems.
-  constexpr int spare = 11;
+  const bool negative = which == negative_first;
+  const int spare = negative ? 14 << failed_ : 11;
   wanted = std::min(wanted, left());
   if (wanted <= 0) return false;
   const int most = std::min(left(), wanted + std::max(spare, wanted));
   if (which != which_) {
     check(EPSSetWhichEigenpairs(eps_, which_ = which));
-    check(EPSSetTolerances(eps_, tolerance, which == EPS_SMALLEST_REAL ? few_restarts : most_restarts));
+    if (negative) check(EPSSetEigenvalueComparison(eps_, prefer_negative, this));
+    check(EPSSetTolerances(eps_, tolerance, negative ? most_restarts_for_negative : most_restarts));
   }
+  scale_ = 0.0;
   if (wanted != wanted_ || most != most_)  // each time would set SLEPc up anew
     check(EPSSetDimensions(eps_, wanted_ = wanted, most_ = most, PETSC_DEFAULT));
   petsc::copy(start(), vector_);
@@ -106,6 +137,8 @@ bool KrylovSpectrum::find(EPSWhich which, int wanted) {
     check(EPSGetEigenpair(eps_, k, &pairs[k].first, nullptr, vector_, nullptr));
     petsc::copy(vector_, pairs[k].second);
   }
+  const bool all = converged >= wanted;
+  if (all && variation_->negative() == 0) pairs.resize(wanted);  // others help none of the next searches
   double largest = 0.0;
   for (const Pair& known : found_)
     if (std::isfinite(known.theta)) largest = std::max(largest, std::abs(known.theta));
@@ -113,10 +146,9 @@ bool KrylovSpectrum::find(EPSWhich which, int wanted) {
     const double size = std::abs(theta);
     if (size <= negligible * largest) return false;
     if (size * most_dominance < std::abs(pairs.front().first)) return true;  // hidden: it is asked for again
-    if (which == EPS_LARGEST_MAGNITUDE) bound_ = size;
     found_.push_back(pair(std::move(y), theta));
   }
-  return converged >= wanted;
+  return all;
 }
 
 /// Another vector each time, without the pairs found; the same ones at every point, so that a point's spectrum does not
@@ -195,20 +227,19 @@ void KrylovSpectrum::refine() {
 }
 
 void KrylovSpectrum::find_negative(int index) {
-  for (int failed = 0; negative() < index && failed < most_searches;) {
+  for (failed_ = 0; negative() < index;) {
     const std::size_t before = found_.size();
-    const bool all = find(EPS_SMALLEST_REAL, index - negative());
+    const bool all = find(negative_first, index - negative());
     const bool hidden =
         std::any_of(found_.begin() + static_cast<long>(before), found_.end(),
-                    [&](const Pair& pair) { return std::abs(pair.theta) * most_dominance < bound_; });
+                    [&](const Pair& pair) { return std::abs(pair.theta) * most_dominance < scale_; });
     if (hidden) {
       found_.resize(before);
       if (!find(EPS_LARGEST_MAGNITUDE, 1)) return;
-    } else if (!all) {
-      ++failed;
-      if (!find(EPS_LARGEST_MAGNITUDE, beside)) return;
+    } else if (!all && (++failed_ == most_searches || !find(EPS_LARGEST_MAGNITUDE, beside))) {
+      return;  // where the inertia counts more than there are, Spectrum's two counts differ
     }
-  }  // where the inertia counts more than there are, Spectrum's two counts differ
+  }
 }
 
 void KrylovSpectrum::find_nearest(int count) {
@@ -241,11 +272,9 @@ std::vector<Pair> KrylovSpectrum::solve(const Variation& variation, int count) {
     turn.value = quotient.value, turn.rounding = quotient.rounding;
     found_.push_back(std::move(turn));
   }
-  if (find(EPS_LARGEST_MAGNITUDE, 1)) {
-    find_negative(variation.negative());
-    find_nearest(count);
-    refine();
-  }
+  find_negative(variation.negative());
+  find_nearest(count);
+  refine();
   variation_ = nullptr;
   return std::move(found_);
 }

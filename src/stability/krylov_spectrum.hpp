@@ -31,6 +31,11 @@ class KrylovSpectrum {
 
  private:
   static PetscErrorCode apply(Mat shell, Vec in, Vec out);
+  /// SLEPc's callbacks for the order of the θ and for how far one is from convergence.
+  static PetscErrorCode prefer_negative(PetscScalar a, PetscScalar, PetscScalar b, PetscScalar,
+                                        PetscInt* result, void* context);
+  static PetscErrorCode error_of(EPS, PetscScalar theta, PetscScalar, PetscReal residual, PetscReal* error,
+                                 void* context);
   /// Appends the `wanted` extreme θ among those not found so far. False: all that is left is rounding.
   bool find(EPSWhich which, int wanted);
   void find_negative(int index);
@@ -49,9 +54,10 @@ class KrylovSpectrum {
   petsc::VecHandle vector_;
   const chain::Variation* variation_ = nullptr;
   std::vector<Pair> found_;
-  double bound_ = 0.0;  ///< of |θ| among those not found
+  double scale_ = 0.0;  ///< largest |θ| met in the search
+  int failed_ = 0;      ///< searches for negative θ
   unsigned starts_ = 0;
-  EPSWhich which_ = EPS_WHICH_USER;  ///< what SLEPc is set up for
+  EPSWhich which_ = EPS_ALL;  ///< what SLEPc is set up for
   int wanted_ = 0, most_ = 0;
 };
 

@@ -12,8 +12,10 @@ namespace {
 using namespace windlass;
 using equilibrium::Started;
 
-Started start_of(double tension, double angle, double length, bool spatial, bool half = true) {
+Started start_of(double tension, double angle, double length, bool spatial, bool half = true,
+                 double twist_ratio = 2.0 / 3.0) {
   scene::Scene scene = test::coil_scene(tension);
+  scene.rod.twist_ratio = twist_ratio;
   scene.load.angle = angle;
   scene.rod.length = length;
   return equilibrium::cold_start(scene, spatial, half, {"load.tension"});
@@ -69,6 +71,22 @@ BOOST_AUTO_TEST_CASE(a_half_chain_has_the_spectrum_of_the_full_one) {
     BOOST_TEST(a.index == b.index);
     for (std::size_t k = 0; k < 6; ++k)  // on meshes that differ
       BOOST_TEST(std::abs(a.eigenvalues.at(k) - b.eigenvalues.at(k)) < 1e-7);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(twisting_of_long_tails_does_not_hide_a_loss_of_stability) {
+  // The flat coil's mode out of its plane stays where the coil is. Beside it the tails twist, at c (kπ/L)², so that a long
+  // rod has dozens of positive eigenvalues nearer to zero than the negative one.
+  for (const bool half : {true, false}) {
+    Started brief = start_of(0.7, 2.0 * M_PI, 24.0, true, half, 0.02),
+            lengthy = start_of(0.7, 2.0 * M_PI, 90.0, true, half, 0.02);
+    const auto a = stability_of(brief, 1), b = stability_of(lengthy, 1);
+    for (const auto& found : {a, b}) {
+      BOOST_TEST(found.inertia_index == 1);
+      BOOST_TEST(found.index == 1);
+    }
+    BOOST_TEST(a.eigenvalues.at(0) < -0.1);
+    BOOST_TEST(a.eigenvalues.at(0) == b.eigenvalues.at(0), boost::test_tools::tolerance(1e-3));
   }
 }
 

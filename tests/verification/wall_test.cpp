@@ -175,7 +175,8 @@ BOOST_AUTO_TEST_CASE(the_strut_comes_back_through_the_same_events) {
       if (point->type != PointType::event) continue;
       passed = true;
       BOOST_TEST(point->after == "tail touch:2 tail");
-      BOOST_TEST(std::abs(point->p(0) / line - 1.0) < 1e-8, "clamped " << clamped << ": " << point->p(0));
+      BOOST_TEST(std::abs(point->p(0) / line - 1.0) < 1e-8,
+                 "clamped " << clamped << ": " << point->p(0) << ", off by " << point->p(0) / line - 1.0);
     }
     BOOST_TEST(passed);
     BOOST_TEST(!walker.end().lost(), walker.end().reason);

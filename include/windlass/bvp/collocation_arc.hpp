@@ -86,7 +86,7 @@ class CollocationArc final : public Arc {
   std::array<Held, D> held_;
   std::size_t held_count_ = 0;
   // Work space, so that Newton's inner loop allocates nothing.
-  mutable Eigen::MatrixXd increments_, weighted_, element_, node_;
+  mutable Eigen::MatrixXd element_, node_;
 };
 
 /// Builds a CollocationArc with `stages` stages. @throws std::invalid_argument outside [min_stages, max_stages + 1].

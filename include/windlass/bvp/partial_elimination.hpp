@@ -32,7 +32,7 @@ class PartialElimination {
 
  private:
   int eliminated_ = 0, kept_ = 0, negative_ = 0;
-  Eigen::MatrixXd columns_;        ///< L and W, (I+E) × I, below the diagonal
+  Eigen::MatrixXd columns_;        ///< L and W, (I+E) × I, below the diagonal; rows padded with zeros
   Eigen::VectorXd inverse_pivot_;  ///< 1/D
 };
 

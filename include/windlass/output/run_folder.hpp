@@ -88,7 +88,7 @@ class RunWriter {
 
  private:
   RunWriter() = default;
-  void set_pause(std::chrono::duration<double> writing);
+  void set_pause();
   /// Replaces a file whose checksum stands in run.json, which knows the new one first.
   void replace_stamped(const char* file, const std::string& text);
   void rewrite_branches();
@@ -110,6 +110,7 @@ class RunWriter {
   bool started_ = false;        ///< run.json is on disk
   std::optional<double> save_every_;
   std::chrono::steady_clock::time_point last_commit_{}, last_checkpoint_{};
+  std::chrono::duration<double> commit_takes_{0.0}, checkpoint_takes_{0.0};  ///< the last one, itself
   std::chrono::duration<double> pause_{1.0};
   std::chrono::duration<double> special_pause_{0.0};  ///< between commits for a special point's sake
 };

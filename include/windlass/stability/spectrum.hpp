@@ -26,8 +26,8 @@ class KrylovSpectra;
 /// Krylov-Schur on Wᵀ K⁻¹ W y = y/μ, K⁻¹ by the chain's own factors (chain::Variation): shift-and-invert at zero shift, as
 /// an ordinary symmetric problem in a shell matrix.
 ///
-/// Sylvester's law says how many μ are negative. The one nearest to zero comes first; then the negative ones, which are the
-/// least 1/μ; then what else was asked for. Found ones are projected out of the next search, which starts from another
+/// Sylvester's law says how many μ are negative. They come first, in spaces that grow until all are found; then what else was
+/// asked for, nearest to zero. Found ones are projected out of the next search, which starts from another
 /// vector: so all copies of a multiple μ are found, and at a bifurcation the huge 1/μ does not hide the others in its
 /// rounding. The value returned is the quotient vᵀKv/vᵀMv of the uncondensed K.
 ///
