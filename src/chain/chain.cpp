@@ -88,7 +88,8 @@ Chain::Chain(std::vector<std::unique_ptr<Joint>> joints, std::vector<double> fix
 void Chain::keep_coordinates() {
   for (int j = 0; j < joint_count(); ++j) {
     if (!on_obstacle(j)) continue;
-    if (gauges_.travel != Travel::none && !joints_[j]->surface()->slips()) continue;  // a plate lets the rod slide
+    if (gauges_.travel != Travel::none && !joints_[j]->surface()->slips())
+      continue;  // a plate lets the rod slide
     if (!in_contact_) first_contact_ = j;
     last_contact_ = j;
     in_contact_ = true;

@@ -99,8 +99,10 @@ Chain::Local Chain::local(Purpose purpose, const Numbering& numbering, const Vec
   arclength_of(link + 1, 1.0, Side::left, d);
   if (travels) {
     l.dofs.push_back(numbering.slide);
-    if (gauges_.travel == Travel::blocked) l.columns.col(k).segment(2 * d, forces) = force_by_travel(loads, link);
-    else if (arc.carried() > 0) l.columns(length + 1, k) = 1.0;
+    if (gauges_.travel == Travel::blocked)
+      l.columns.col(k).segment(2 * d, forces) = force_by_travel(loads, link);
+    else if (arc.carried() > 0)
+      l.columns(length + 1, k) = 1.0;
     ++k;
   }
   l.columns.conservativeResize(ends, k);
@@ -108,8 +110,8 @@ Chain::Local Chain::local(Purpose purpose, const Numbering& numbering, const Vec
   return l;
 }
 
-void Chain::add_travel(const VectorXd& x, const Loads& loads, int link, Side side, const SmallVector& gradient,
-                       const SmallVector& force, MatrixXd& dense) const {
+void Chain::add_travel(const VectorXd& x, const Loads& loads, int link, Side side,
+                       const SmallVector& gradient, const SmallVector& force, MatrixXd& dense) const {
   const int joint = side == Side::right ? link : link + 1;
   const double sign = side == Side::right ? -1.0 : 1.0;
   const Eigen::Index first = numbering_.coordinate[joint];

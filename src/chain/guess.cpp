@@ -54,7 +54,9 @@ void adopt_interior(const RodKind& rod, const obstacle::Surface* surface, const 
 void adopt_line(const RodKind& rod, const obstacle::Surface& surface, const Chain& chain, int link,
                 const Profile& profile, double begin, double length, VectorXd& x) {
   const Arc& arc = *chain.link(link).arc;
-  const auto twist_at = [&](int joint) { return chain.coordinates(x, joint) + chain.joint(joint).spin_coordinate(); };
+  const auto twist_at = [&](int joint) {
+    return chain.coordinates(x, joint) + chain.joint(joint).spin_coordinate();
+  };
   double twist = *twist_at(link);
   adopt_interior(rod, &surface, arc, profile, begin, length, twist, chain.interior(x, link));
   *twist_at(link + 1) += 2.0 * M_PI * std::round((twist - *twist_at(link + 1)) / (2.0 * M_PI));

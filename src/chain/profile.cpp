@@ -195,7 +195,8 @@ Piece sample_link(const Chain& chain, const RodKind& rod, const VectorXd& x, con
     if (rod.spatial) {
       const obstacle::Surface& surface = rod.obstacles[piece.obstacle];
       const bool flat = topology.lies_flat(link);  // on a plate, at its height
-      const Eigen::Vector2d start(placed.left.x(0), flat ? plate_height(rod, topology, link) : placed.left.x(1)),
+      const Eigen::Vector2d start(placed.left.x(0),
+                                  flat ? plate_height(rod, topology, link) : placed.left.x(1)),
           along(placed.n(0), flat ? 0.0 : placed.n(1));
       const double whole = topology.half && link == 0 ? 2.0 * placed.length : placed.length;
       sample_surface(samples, rod, surface, start, along, piece);

@@ -126,7 +126,8 @@ double total_contact_force(const Profile& profile, const Topology& topology) {
   for (const Piece& piece : profile.pieces) sum += piece.force * (topology.half ? 2.0 : 1.0);
   const bool capstan = profile.obstacles.size() > 0 && profile.obstacles[0].slips();
   for (const Contact& c : profile.contacts)
-    if (!capstan || c.obstacle <= 0) sum += (c.coupling < 0 ? c.force : c.reaction.value_or(0.0)) * copies(topology, c.joint);
+    if (!capstan || c.obstacle <= 0)
+      sum += (c.coupling < 0 ? c.force : c.reaction.value_or(0.0)) * copies(topology, c.joint);
   return sum;
 }
 

@@ -139,7 +139,8 @@ Chain::DraggedVariation Chain::dragged_variation(const VectorXd& x, const Loads&
     if (share == 0.0) continue;
     held.emplace_back(place[slide_row()], place[numbering.coordinate[j]], share);
     if (numbering.location[j] >= 0)
-      held.emplace_back(place[slide_row()], place[numbering.location[j]], -share * joints_[j]->slide(coordinates(x, j)));
+      held.emplace_back(place[slide_row()], place[numbering.location[j]],
+                        -share * joints_[j]->slide(coordinates(x, j)));
   }
   return {kept(jacobian(x, loads), held), kept(metric, {})};
 }

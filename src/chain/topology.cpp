@@ -88,7 +88,8 @@ std::unique_ptr<Joint> contact_joint(const RodKind& rod, const Topology& t, int 
   if (left == Stretch::line && right == Stretch::line && seat.strand != 0 && rod.spatial)
     return std::make_unique<spatial::Pressed>(rod.obstacles.pointer(obstacle));
   if (left == Stretch::line && right == Stretch::line && seat.stop >= 0 && rod.spatial)
-    return std::make_unique<spatial::Stopped>(rod.obstacles.pointer(obstacle), rod.obstacles.pointer(seat.stop), seat.middle);
+    return std::make_unique<spatial::Stopped>(rod.obstacles.pointer(obstacle),
+                                              rod.obstacles.pointer(seat.stop), seat.middle);
   if (left == Stretch::line && right == Stretch::line)
     throw std::invalid_argument("two line contacts cannot meet at a joint");
   if (left != Stretch::line && right != Stretch::line) {
@@ -154,7 +155,8 @@ bool contacts_let_slide_along_x(const RodKind& rod, const Topology& t) {
 /// Does the rod touch an obstacle that does not let it move along the axis?
 bool on_plate(const RodKind& rod, const Topology& t) {
   for (int j = 1; j < static_cast<int>(t.stretches.size()); ++j)
-    if (t.lies_flat(j) || (t.seat(j).strand == 0 && rod.obstacles[t.pushed_by(j)].curvature() == 0.0)) return true;
+    if (t.lies_flat(j) || (t.seat(j).strand == 0 && rod.obstacles[t.pushed_by(j)].curvature() == 0.0))
+      return true;
   return false;
 }
 
@@ -294,9 +296,8 @@ std::unique_ptr<Chain> build_chain(const RodKind& rod, const Topology& t,
     if (i == count) break;
     const bool leftward = i == 0 && !t.half;
     Link link;
-    link.arc = t.lies_flat(i)
-                   ? std::make_unique<rod::PlateLineArc>(rod.bending_stiffness, rod.stiffness(2))
-                   : make_arc(rod, all[i], t.obstacle(i), mesh_of(i), !leftward);
+    link.arc = t.lies_flat(i) ? std::make_unique<rod::PlateLineArc>(rod.bending_stiffness, rod.stiffness(2))
+                              : make_arc(rod, all[i], t.obstacle(i), mesh_of(i), !leftward);
     link.role = word(all[i]);
     if (all[i] == Stretch::tail && !rod.strut) link.pull = leftward ? -1 : 1;
     links.push_back(std::move(link));

@@ -36,7 +36,8 @@ Vector2d flat_coordinates(const SurfacePointer& line, const Place& place) {
   return {all[0], all[3]};
 }
 
-Vector2d on_plate(const obstacle::Surface& line, const obstacle::Surface& plate, double around, double height) {
+Vector2d on_plate(const obstacle::Surface& line, const obstacle::Surface& plate, double around,
+                  double height) {
   const Vector2d on_line(around, height);
   return plate.coordinates(line.chart(on_line).r, line.turn(on_line));
 }
@@ -128,7 +129,8 @@ Attachment LiftOff::attach(Side side, const double* w, const Loads&) const {
   return at;
 }
 
-Joint::Location LiftOff::location(const double*, const SmallVector& g_left, const SmallVector& g_right) const {
+Joint::Location LiftOff::location(const double*, const SmallVector& g_left,
+                                  const SmallVector& g_right) const {
   Location c;
   c.side = flat_ == Side::left ? Side::right : Side::left;
   c.value = (c.side == Side::right ? g_right : g_left)(0);

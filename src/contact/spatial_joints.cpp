@@ -32,7 +32,8 @@ Attachment lying(const double* w) {
 
 /// Displacements along the surface, turned so that the force N + mu d of a cylinder that slips does no work on them.
 /// @param d  components of the direction of slip along the chart's tangents
-SmallMatrix slipping(const SmallMatrix& along, const obstacle::Chart& here, double friction, const Vector2d& d) {
+SmallMatrix slipping(const SmallMatrix& along, const obstacle::Chart& here, double friction,
+                     const Vector2d& d) {
   SmallMatrix tested = along;
   tested.leftCols<2>() -= friction * here.normal * d.transpose();
   return tested;
@@ -62,8 +63,8 @@ TouchSlip slip_at(const obstacle::Chart& here, const Eigen::Matrix3d& directors,
   out.d = here.tangents.transpose() * d;
   out.by_w.setZero(2, 5);
   out.by_w.leftCols<2>() = here.second(d);
-  out.by_w.rightCols<3>() = here.tangents.transpose() *
-                            (Eigen::Matrix3d::Identity() - d * d.transpose()) * (-travel / size) * turned;
+  out.by_w.rightCols<3>() = here.tangents.transpose() * (Eigen::Matrix3d::Identity() - d * d.transpose()) *
+                            (-travel / size) * turned;
   return out;
 }
 
@@ -102,8 +103,8 @@ Attachment Touch::attach(Side, const double* w, const Loads& loads) const {
   at.x = here.r;
   at.dx.leftCols<2>() = here.tangents;
   if (loads.friction > 0.0 && surface_->slips())
-    at.tested = slipping(at.dx, here, loads.friction,
-                         slip_at(here, rod::directors(frame_at(w + 2)), loads.travel).d);
+    at.tested =
+        slipping(at.dx, here, loads.friction, slip_at(here, rod::directors(frame_at(w + 2)), loads.travel).d);
   return at;
 }
 
@@ -173,8 +174,8 @@ std::optional<Joint::Drag> Edge::drag(Side side, const double* w, const Loads& l
   return out;
 }
 
-void Edge::curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
-                     SmallMatrix& out) const {
+void Edge::curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q,
+                     const SmallVector& f, SmallMatrix& out) const {
   if (side == line_) return;
   if (loads.friction > 0.0 && surface_->slips()) {
     const rod::Slip slip = rod::slip(w[2], loads.travel);

@@ -66,7 +66,8 @@ chain::RodKind rod_of(const scene::Scene& scene, bool spatial) {
   rod.infinite = scene.rod.infinite();
   rod.strut = !scene.has_cylinder;
   rod.obstacles = obstacle::obstacles_of(scene);
-  if (!spatial && scene.plate) rod.obstacles = obstacle::Set({rod.obstacles.pointer(0)});  // lies in the plate
+  if (!spatial && scene.plate)
+    rod.obstacles = obstacle::Set({rod.obstacles.pointer(0)});  // lies in the plate
   if (spatial && scene.slides())
     rod.travel = scene.ends.travel == scene::Travel::free ? chain::Travel::free : chain::Travel::blocked;
   constexpr double twentieth = 0.05;  // a capstan's rod has a length of some 20 ρ

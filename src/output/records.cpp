@@ -33,7 +33,8 @@ BranchRow make_row(const equilibrium::Solution& solution, int branch, int point,
   row.self_force = solution.self_force;
   row.plate_force = solution.plate_force;
   row.F0 = solution.F0;
-  if (solution.dragged) row.travel = solution.travel_rate != 0.0 ? solution.travel_rate : solution.pull_difference;
+  if (solution.dragged)
+    row.travel = solution.travel_rate != 0.0 ? solution.travel_rate : solution.pull_difference;
   if (solution.stability) {
     row.index = solution.stability->index;
     if (!solution.stability->eigenvalues.empty()) row.eigenvalue_1 = solution.stability->eigenvalues.front();

@@ -29,10 +29,10 @@ LinePressure line_pressure(const SurfaceDensity& rod, const Vector2d& q, const V
   LinePressure out;
   out.p = c * around - bend * k + 3.0 * b * w * w * cos2;
   const double around_psi = -m3 * c + 3.0 * b * c * c * s;
-  const double bend_psi = (around_psi * s + around * c + n(1) * s - 2.0 * m3 * c * s) / b -
-                          (c * c * c * c - 3.0 * s * s * c * c);
-  const double by_psi = -s * around + c * around_psi - bend_psi * k + 3.0 * b * bend * cos2 -
-                        12.0 * b * w * w * s * c;
+  const double bend_psi =
+      (around_psi * s + around * c + n(1) * s - 2.0 * m3 * c * s) / b - (c * c * c * c - 3.0 * s * s * c * c);
+  const double by_psi =
+      -s * around + c * around_psi - bend_psi * k + 3.0 * b * bend * cos2 - 12.0 * b * w * w * s * c;
   const double by_moment = -c * s - bend - k * cos2 / b;
   out.by_z << by_psi + by_moment * rod.twisting_stiffness * cos2, 0.0, 6.0 * b * w * cos2,
       by_moment * rod.twisting_stiffness;
@@ -87,7 +87,8 @@ void DraggedLineArc::evaluate(const ArcPoint& at, int element, const Vector2d& n
   out.q = out.nodes.lazyProduct(table_.value.transpose());
   out.slope = out.nodes.lazyProduct(table_.slope.transpose()) / h;
   // p is affine in n: the forces at the stages solve a linear system.
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * max_points, 2 * max_points> system(2 * m, 2 * m);
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * max_points, 2 * max_points> system(2 * m,
+                                                                                                  2 * m);
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * max_points, 1> forces(2 * m);
   system.setIdentity();
   for (int g = 0; g < m; ++g) forces.segment<2>(2 * g) = n;
@@ -273,8 +274,7 @@ void DraggedLineArc::hessian(const ArcPoint& at, std::vector<Eigen::Triplet<doub
   linearise(at);
   for (Eigen::Index c = 0; c < matrix_.cols(); ++c)
     for (Eigen::Index r = 0; r < matrix_.rows(); ++r)
-      if (matrix_(r, c) != 0.0)
-        entries.emplace_back(static_cast<int>(r), static_cast<int>(c), matrix_(r, c));
+      if (matrix_(r, c) != 0.0) entries.emplace_back(static_cast<int>(r), static_cast<int>(c), matrix_(r, c));
 }
 
 Eigen::VectorXd DraggedLineArc::metric(const ArcPoint& at) const {

@@ -243,9 +243,10 @@ std::vector<Key> plate_keys() {
            .get_text = [](const Scene& scene) -> std::string {
              return scene.plate ? std::string(side_words[static_cast<std::size_t>(scene.plate->side)]) : "";
            },
-           .set_text = [](Scene& scene, const std::string& word) {
-             the_plate(scene).side = word == side_words[0] ? PlateSide::above : PlateSide::below;
-           }};
+           .set_text =
+               [](Scene& scene, const std::string& word) {
+                 the_plate(scene).side = word == side_words[0] ? PlateSide::above : PlateSide::below;
+               }};
   return {height, side, radius};
 }
 

@@ -135,17 +135,20 @@ void check_sliding(const Document& document, const Scene& scene) {
   if (!scene.slides()) return;
   if (!(scene.friction.value_or(0.0) > 0.0))
     refuse("cylinder.friction", "must be > 0 with cylinder.sliding = \"up\"");
-  if (!scene.plate)
-    refuse("cylinder.sliding", "needs a [plate], or the cylinder would carry the rod away");
+  if (!scene.plate) refuse("cylinder.sliding", "needs a [plate], or the cylinder would carry the rod away");
   if (scene.plate->side != PlateSide::above)
-    refuse("plate.side", "must be \"above\" with cylinder.sliding = \"up\", or the cylinder would carry the rod away");
+    refuse("plate.side",
+           "must be \"above\" with cylinder.sliding = \"up\", or the cylinder would carry the rod away");
   if (scene.self_contact)
-    refuse("rod.self_contact", "must be false with cylinder.sliding = \"up\": the friction of rods that touch themselves is not built yet");
+    refuse("rod.self_contact",
+           "must be false with cylinder.sliding = \"up\": the friction of rods that touch themselves is not "
+           "built yet");
   if (!scene.rod.isotropic_straight())
     refuse("cylinder.sliding", "needs an isotropic, naturally straight rod");
   for (const char* end : {"ends.kind", "ends.left", "ends.right"})
     if (scene.ends.left_kind() != EndKind::moment_free || scene.ends.right_kind() != EndKind::moment_free)
-      forbid(document, end, "must be \"moment_free\" with cylinder.sliding = \"up\": other ends are not built yet");
+      forbid(document, end,
+             "must be \"moment_free\" with cylinder.sliding = \"up\": other ends are not built yet");
 }
 
 void check_continuation(const Document& document, const Scene& scene, bool restart) {

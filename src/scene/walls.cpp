@@ -16,7 +16,8 @@ double Wall::reach_of_straight(double length) const {
 }
 
 bool Scene::obstacles_keep_half_turn() const {
-  return !plate && std::all_of(walls.begin(), walls.end(), [](const Wall& wall) { return wall.keeps_half_turn(); });
+  return !plate &&
+         std::all_of(walls.begin(), walls.end(), [](const Wall& wall) { return wall.keeps_half_turn(); });
 }
 
 std::span<const Key> wall_keys() {

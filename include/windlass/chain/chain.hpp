@@ -128,7 +128,9 @@ class Chain {
   }
   Travel travel() const { return gauges_.travel; }
   /// τ or ω; see Travel.
-  double travelled(const VectorXd& x) const { return gauges_.travel == Travel::none ? 0.0 : x(slide_at_ + 1); }
+  double travelled(const VectorXd& x) const {
+    return gauges_.travel == Travel::none ? 0.0 : x(slide_at_ + 1);
+  }
   /// Length of a link: the difference of its ends' arclengths, without loss of digits where they are close.
   double length(const VectorXd& x, const Loads& loads, int link) const;
   /// Row of the gauge, and place of λ in an increment.

@@ -77,9 +77,9 @@ enum class EndKind { moment_free, clamped, pinned };
 struct RodKind {
   bool spatial = false;
   EndKind left = EndKind::moment_free, right = EndKind::moment_free;
-  bool infinite = false;      ///< closed-form tails
-  bool strut = false;         ///< no cylinder, the ends on e_x
-  bool under_thrust = false;  ///< strut: thrust given, else shortening
+  bool infinite = false;         ///< closed-form tails
+  bool strut = false;            ///< no cylinder, the ends on e_x
+  bool under_thrust = false;     ///< strut: thrust given, else shortening
   Travel travel = Travel::none;  ///< of a rod on a cylinder that slips along it
   double pull_angle =
       NAN;  ///< between the pulls, for a rod that they leave free to turn [rad]; NaN: it varies

@@ -34,10 +34,10 @@ struct BranchRow {
   double self_force = 0.0;              ///< sum of the sizes of the forces between strands [EI/ρ²]
   double plate_force = 0.0;             ///< capstan: of the plate on the rod [EI/ρ²]
   std::optional<double> F0;             ///< capstan with a friction coefficient [EI/ρ²]
-  std::optional<double> travel;         ///< while the cylinder slips: ω, or with ends.travel = "blocked" τ [EI/ρ²]
-  std::optional<int> index;             ///< number of negative eigenvalues, where computed
-  std::optional<double> eigenvalue_1;   ///< lowest eigenvalue, where computed
-  double ds = 0.0;                      ///< continuation step that led here
+  std::optional<double> travel;  ///< while the cylinder slips: ω, or with ends.travel = "blocked" τ [EI/ρ²]
+  std::optional<int> index;      ///< number of negative eigenvalues, where computed
+  std::optional<double> eigenvalue_1;  ///< lowest eigenvalue, where computed
+  double ds = 0.0;                     ///< continuation step that led here
   int newton_iterations = 0;
   double error_estimate = 0.0;      ///< relative
   std::string topology;             ///< e.g. "tail edge line edge tail"

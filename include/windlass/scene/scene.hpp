@@ -50,9 +50,9 @@ struct Wall {
 
 /// A stopper, a plane z = height: the centre line stays on one side of it.
 struct Plate {
-  double height = 0.0;                  ///< [ρ]
-  PlateSide side = PlateSide::above;    ///< where the plate is, seen from the rod
-  double outer_radius = HUGE_VAL;       ///< [ρ]
+  double height = 0.0;                ///< [ρ]
+  PlateSide side = PlateSide::above;  ///< where the plate is, seen from the rod
+  double outer_radius = HUGE_VAL;     ///< [ρ]
 
   bool operator==(const Plate&) const = default;
 };
@@ -142,7 +142,7 @@ struct Scene {
   Motion motion;                   ///< of the cylinder
   std::optional<Plate> plate;
   bool slides() const { return motion.sliding != Sliding::none; }
-  std::vector<Wall> walls;         ///< struts only, in the order of the file
+  std::vector<Wall> walls;  ///< struts only, in the order of the file
   Load load;
   Ends ends;
   Knot knot;

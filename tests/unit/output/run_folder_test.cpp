@@ -123,7 +123,8 @@ BOOST_AUTO_TEST_CASE(columns_are_those_promised) {
   auto scene = test::capstan_scene(1.0, two_pi);
   RunWriter::create(temporary / "capstan", scene, {});
   BOOST_TEST(content(temporary / "capstan/branches.csv") ==
-             "branch,point,label,type,T,phi,R_tot,phi_star,tilt,z_span,energy,self_distance,self_force,plate_force,F0,travel,index,"
+             "branch,point,label,type,T,phi,R_tot,phi_star,tilt,z_span,energy,self_distance,self_force,plate_"
+             "force,F0,travel,index,"
              "eigenvalue_1,ds,"
              "newton_iterations,error_estimate,topology\n");
   scene.has_cylinder = false;

@@ -75,7 +75,8 @@ BOOST_AUTO_TEST_CASE(slip_has_unit_size_and_is_differentiated) {
   constexpr double h = 1e-5, bound = 1e-9;
   const rod::Slip here = rod::slip(0.4, 0.3);
   BOOST_TEST(std::abs(here.d.norm() - 1.0) < 1e-15);
-  BOOST_TEST(((rod::slip(0.4 + h, 0.3).d - rod::slip(0.4 - h, 0.3).d) / (2.0 * h) - here.by_psi).norm() < bound);
+  BOOST_TEST(((rod::slip(0.4 + h, 0.3).d - rod::slip(0.4 - h, 0.3).d) / (2.0 * h) - here.by_psi).norm() <
+             bound);
   BOOST_TEST(((rod::slip(0.4, 0.3 + h).d - rod::slip(0.4, 0.3 - h).d) / (2.0 * h) - here.by_travel).norm() <
              bound);
 }
