@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "support/csv.hpp"
 #include "support/run_program.hpp"
@@ -101,6 +102,54 @@ BOOST_AUTO_TEST_CASE(touches_of_a_line_are_named) {
   BOOST_TEST(kinds["touch"] == 4);
   BOOST_TEST(kinds["line"] >= 2);
   BOOST_TEST(std::abs(self - state["self_force"].get<double>()) < 1e-9 * self);
+}
+
+BOOST_AUTO_TEST_CASE(materials_in_newtons) {
+  // All are stable hitches; that on the plastic cylinder is the dimensionless one of its R/r, rod length and tension.
+  for (const char* name : {"clove-hitch-vps-vps", "clove-hitch-vps-inext", "clove-hitch-vps-pom",
+                           "clove-hitch-rope-rope", "clove-hitch-nitinol-steel"}) {
+    const Outcome outcome = run_program({"solve", shipped_scene(name), "--json"});
+    BOOST_REQUIRE_MESSAGE(outcome.status == 0, name << outcome.err);
+    const nlohmann::json state = nlohmann::json::parse(outcome.out), newtons = state["physical"];
+    BOOST_TEST(state["stability"]["index"] == 0);
+    BOOST_TEST(state["contact"]["self"].size() >= 3U);
+    if (std::string(name) != "clove-hitch-vps-pom") continue;
+    const double force = newtons["scales"]["force"]["value"], length = newtons["scales"]["length"]["value"],
+                 R_tot = newtons["R_tot"]["value"];
+    BOOST_TEST(length == 14.0, boost::test_tools::tolerance(1e-14));
+    const nlohmann::json plain =
+        solved(4.0 / 14.0, state["parameters"]["T"], {"rod.length=" + std::to_string(500.0 / 14.0)});
+    // Settings are written with six decimals.
+    BOOST_TEST(plain["R_tot"].get<double>() * force == R_tot, boost::test_tools::tolerance(1e-5));
+    BOOST_TEST(newtons["F0"]["value"].get<double>() == 0.32 * R_tot, boost::test_tools::tolerance(1e-12));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(friction_is_fitted_on_a_knot) {
+  const TemporaryFolder folder;
+  const std::string scene = shipped_scene("clove-hitch-vps-pom");
+  const Outcome branch = run_program({"continue", scene, "--set", "continuation.from=180 g", "--set",
+                                      "continuation.to=90 g", "--out", "run", "--quiet"},
+                                     folder.path());
+  BOOST_REQUIRE_MESSAGE(branch.status == 0, branch.err);
+  constexpr double mu = 0.27;
+  std::ostringstream data;
+  data.precision(12);
+  data << "T [g], F0 [N]\n";
+  for (const int grams : {100, 130, 170}) {  // each from nothing
+    const Outcome outcome =
+        run_program({"solve", scene, "--json", "--set", "load.tension=" + std::to_string(grams) + " g"});
+    const auto state = nlohmann::json::parse(outcome.out);
+    data << grams << ", " << mu * state["physical"]["R_tot"]["value"].get<double>() << "\n";
+  }
+  folder.write("data.csv", data.str());
+  const Outcome outcome =
+      run_program({"fit", "run", "--csv", "data.csv", "--json", "--format", "png"}, folder.path());
+  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  const auto fit = nlohmann::json::parse(outcome.out);
+  BOOST_TEST(fit["mu"].get<double>() == mu, boost::test_tools::tolerance(1e-7));
+  BOOST_TEST(fit["points"].size() == 3U);
+  for (const auto& point : fit["points"]) BOOST_TEST(point["R_tot_from"] == "computed");
 }
 
 BOOST_AUTO_TEST_CASE(half_and_full_chain_agree) {
