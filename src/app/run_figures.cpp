@@ -48,6 +48,21 @@ int compute(const figures::PlannedRun& plan, const fs::path& out, const CommonOp
 
 }  // namespace
 
+namespace {
+
+/// What agrees with the paper and what does not, of each figure.
+nlohmann::ordered_json to_json(const std::vector<figures::Statement>& statements) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const figures::Statement& statement : statements)
+    list.push_back({{"paper", statement.paper},
+                    {"here", statement.here},
+                    {"verdict", figures::name(statement.verdict)},
+                    {"why", statement.why}});
+  return list;
+}
+
+}  // namespace
+
 int run_figures(const FiguresRequest& request) {
   const auto begin = std::chrono::steady_clock::now();
   const fs::path out = request.common.out.empty() ? fs::path("figures") : request.common.out;
@@ -70,7 +85,10 @@ int run_figures(const FiguresRequest& request) {
   progress.finish();
   if (request.common.json) {
     nlohmann::ordered_json json{{"page", page.string()}, {"seconds", seconds}, {"incomplete", incomplete}};
-    for (const auto& figure : drawn) json["figures"].push_back(figure.stem);
+    for (const auto& figure : drawn) {
+      json["figures"].push_back(figure.stem);
+      json["statements"][figure.stem] = to_json(figure.statements);
+    }
     fmt::print("{}\n", json.dump(2));
   } else if (!request.common.quiet) {
     fmt::print("{}  ({} figures, {:.1f} s)\n", page.string(), drawn.size(), seconds);

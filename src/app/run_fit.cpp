@@ -139,8 +139,9 @@ int run_fit(const FitRequest& request) {
   const scene::Scene scene = scene_of_run(request.run, request.common);
   const output::Run run = output::read_run(request.run);
   if (!scene.has_cylinder || (scene.continuation && scene.continuation->parameter != "load.tension"))
-    throw InputError(request.run.string() +
-                     ": the fit needs a branch or diagram of a capstan in load.tension");
+    throw InputError(
+        request.run.string() +
+        ": the fit needs a branch or diagram of a capstan or a knot on a cylinder, in load.tension");
   const Comparison comparison = compare(request, run, scene);
   for (const auto& point : comparison.without_state)
     fmt::print(stderr, "windlass: {}:{}: left out: the run has no stable state at T = {:.6g}\n",

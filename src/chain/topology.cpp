@@ -144,12 +144,14 @@ std::optional<contact::Parity> neutral_turn(const RodKind& rod, const Topology& 
   return rod.clamped() ? std::nullopt : std::optional(contact::Parity::even);
 }
 
-bool contacts_let_slide_along_x(const RodKind& rod, const Topology& t) {
-  if (!t.contact()) return true;
+/// Does a contact of a strut with one of the obstacles, not with another strand, meet a condition?
+template <class Condition>
+bool any_on_obstacle(const RodKind& rod, const Topology& t, const Condition& condition) {
+  if (!t.contact()) return false;
   const int count = static_cast<int>(t.stretches.size());
   for (int j = t.half && t.stretches.front() != Stretch::line && !t.mid_touch ? 1 : !t.half; j < count; ++j)
-    if (t.seat(j).strand == 0 && !rod.obstacles[t.obstacle(j)].endless_along_x()) return false;
-  return true;
+    if (t.seat(j).strand == 0 && condition(rod.obstacles[t.obstacle(j)])) return true;
+  return false;
 }
 
 /// Does the rod touch an obstacle that does not let it move along the axis?
@@ -165,9 +167,11 @@ Chain::Gauges gauges(const RodKind& rod, const Topology& t) {
   Chain::Gauges g;
   g.half_turn = t.half;
   if (rod.strut) {
-    const bool touched = t.contact();
+    const bool touched = any_on_obstacle(rod, t, [](const obstacle::Surface&) { return true; });
     const bool pinned = rod.left != EndKind::clamped && rod.right != EndKind::clamped;
-    g.along = rod.under_thrust && contacts_let_slide_along_x(rod, t);
+    g.along = rod.under_thrust && !any_on_obstacle(rod, t, [](const obstacle::Surface& surface) {
+                return !surface.endless_along_x();
+              });
     g.spin = pinned && rod.isotropic_straight();
     // A shape turns about the axis of its ends while each section turns back about its tangent, to keep clamped ends.
     if (!touched && (rod.isotropic_straight() || pinned)) g.phase = rod.isotropic_straight() ? -1.0 : 0.0;

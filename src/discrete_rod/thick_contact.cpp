@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "thick_sum.hpp"
@@ -8,6 +9,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 void ThickEnergy::add_cylinder(const Vector& x, Sum& sum) const {
+  if (penalties.cylinder <= 0.0) return;
   for (int e = 0; e < rod_.elements(); ++e) {
     const SplineRod::Controls controls = rod_.controls(x, e);
     for (int q = 0; q < Quadrature::points; ++q) {
@@ -62,6 +64,21 @@ void ThickEnergy::add_strands(const Vector& x, Sum& sum) const {
         weight * (d_slope * d_slope.transpose() - depth * d_curvature);
     Local({pair.element, pair.other}).add(Vector24(-weight * depth * d_slope), hessian, sum);
   }
+}
+
+bool ThickEnergy::strands_pass(const Vector& from, const Vector& to) const {
+  double way = std::abs(to(0) - from(0));  // of the control point that goes farthest, and so of any place
+  for (Eigen::Index k = 1; k + 2 < size(); k += 3)
+    way = std::max(way, (to.segment<3>(k) - from.segment<3>(k)).norm());
+  constexpr double long_way = 0.5;
+  if (way > long_way) return true;
+  // Nearest places of two strands, taken along: they have passed where the one lies on the other's other side.
+  const auto gap = [&](const Vector& x, const StrandPair& pair) {
+    return Vector3d(rod_.position(x, pair.element, pair.t) - rod_.position(x, pair.other, pair.other_t));
+  };
+  const std::vector<StrandPair> near = strand_pairs(rod_, from, 2.0 * way, M_PI * radius_);
+  return std::any_of(near.begin(), near.end(),
+                     [&](const StrandPair& pair) { return gap(from, pair).dot(gap(to, pair)) < 0.0; });
 }
 
 double ThickEnergy::cylinder_force(const Vector& x) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace windlass::discrete_rod {
 
@@ -54,25 +55,56 @@ std::vector<Pressed> add_strands(const ThickRod& thick, const SplineRod& rod, co
   return pressed;
 }
 
-/// Places that press harder than all within reach.
-std::vector<StrandTouch> hardest(std::vector<Pressed> pressed, double reach) {
-  const auto together = [&](const Pressed& a, const Pressed& b) {
-    return a.at.mirrored == b.at.mirrored && std::abs(a.at.s - b.at.s) < reach &&
-           std::abs(a.at.other - b.at.other) < reach;
+/// The stretch that is its own image and that mirrored strands press on all the way, from its one end to the other; that of a place
+/// that is its own image where they press on no more than a touch does. nullopt: the touch does not belong to it.
+std::optional<StrandTouch> own_image(const std::vector<Pressed>& pressed, const StrandTouch& touch,
+                                     double reach) {
+  std::vector<StrandTouch> about;  // from the axis of the half-turn outward
+  for (const Pressed& p : pressed)
+    if (p.at.mirrored) about.push_back(p.at);
+  std::sort(about.begin(), about.end(),
+            [](const auto& a, const auto& b) { return a.other - a.s < b.other - b.s; });
+  StrandTouch all;
+  double apart = 0.0;  // of the two places
+  for (const StrandTouch& at : about) {
+    if (at.other - at.s - apart >= reach) break;
+    all = at, apart = at.other - at.s;
+  }
+  if (!touch.mirrored || touch.other - touch.s > apart) return std::nullopt;
+  all.own_image = true;
+  constexpr double touch_reaches = 2.5;
+  all.line = apart > touch_reaches * reach;
+  if (all.line)
+    all.s += 0.5 * reach, all.other -= 0.5 * reach;
+  else
+    all.s = all.other = 0.5 * (all.s + all.other);
+  return all;
+}
+
+/// Places that press harder than all within reach. @param lines  where strands press on their own image all the way, that is a line
+std::vector<StrandTouch> hardest(std::vector<Pressed> pressed, double reach, bool lines) {
+  const auto together = [&](const StrandTouch& a, const StrandTouch& b) {
+    return a.mirrored == b.mirrored && std::abs(a.s - b.s) < reach && std::abs(a.other - b.other) < reach;
   };
   std::vector<StrandTouch> out;
+  const auto add = [&](const StrandTouch& touch) {
+    if (std::none_of(out.begin(), out.end(),
+                     [&](const StrandTouch& other) { return together(touch, other); }))
+      out.push_back(touch);
+  };
   for (const Pressed& p : pressed) {
     const bool most = std::none_of(pressed.begin(), pressed.end(), [&](const Pressed& other) {
-      return together(p, other) && other.pressure > p.pressure;
+      return together(p.at, other.at) && other.pressure > p.pressure;
     });
-    const bool known = std::any_of(out.begin(), out.end(), [&](const StrandTouch& touch) {
-      return together(p, Pressed{touch, 0.0});
-    });
-    if (!most || known) continue;
+    if (!most) continue;
     StrandTouch touch = p.at;
-    touch.own_image = touch.mirrored && touch.other - touch.s < reach;
-    if (touch.own_image) touch.s = touch.other = 0.5 * (touch.s + touch.other);
-    out.push_back(touch);
+    if (lines) {
+      touch = own_image(pressed, p.at, reach).value_or(p.at);
+    } else if (touch.mirrored && touch.other - touch.s < reach) {
+      touch.own_image = true;
+      touch.s = touch.other = 0.5 * (touch.s + touch.other);
+    }
+    add(touch);
   }
   std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.s < b.s; });
   return out;
@@ -80,12 +112,20 @@ std::vector<StrandTouch> hardest(std::vector<Pressed> pressed, double reach) {
 
 }  // namespace
 
-ThickContacts contacts_of(const ThickRod& thick, const ThickMinimum& minimum) {
+ThickContacts scaled(ThickContacts contacts, double factor) {
+  for (LyingStretch& lying : contacts.cylinder) lying.begin *= factor, lying.end *= factor;
+  for (StrandTouch& touch : contacts.strands) touch.s *= factor, touch.other *= factor;
+  for (PointLoad& load : contacts.loads) load.s *= factor, load.force /= factor * factor;
+  contacts.range *= factor;
+  return contacts;
+}
+
+ThickContacts contacts_of(const ThickRod& thick, const ThickMinimum& minimum, bool lines) {
   const SplineRod rod = thick.spline(minimum.h);
   ThickContacts out;
   out.range = 1.5 * minimum.h;
-  add_cylinder(rod, minimum, out);
-  out.strands = hardest(add_strands(thick, rod, minimum, out), out.range);
+  if (thick.cylinder) add_cylinder(rod, minimum, out);
+  out.strands = hardest(add_strands(thick, rod, minimum, out), out.range, lines);
   std::sort(out.loads.begin(), out.loads.end(), [](const auto& a, const auto& b) { return a.s < b.s; });
   return out;
 }

@@ -3,6 +3,7 @@
 #include <petsctao.h>
 
 #include <Eigen/SparseCholesky>
+#include <cmath>
 
 #include "windlass/petsc/handles.hpp"
 
@@ -17,11 +18,20 @@ namespace {
 
 using TaoHandle = petsc::Handle<Tao, TaoDestroy>;
 
+/// An energy and the shape that the trust region is about.
+struct Descent {
+  const ThickEnergy& energy;
+  VectorXd from;
+};
+
+/// Infinite where strands would pass through each other: a slender rod is less thick than a step is long. The trust region
+/// shrinks then.
 PetscErrorCode thick_objective(Tao, Vec in, PetscReal* value, void* context) {
   return guard([&] {
     VectorXd x;
     petsc::copy(in, x);
-    *value = static_cast<ThickEnergy*>(context)->value(x);
+    const auto& descent = *static_cast<Descent*>(context);
+    *value = descent.energy.strands_pass(descent.from, x) ? HUGE_VAL : descent.energy.value(x);
   });
 }
 
@@ -29,7 +39,9 @@ PetscErrorCode thick_slope(Tao, Vec in, Vec out, void* context) {
   return guard([&] {
     VectorXd x;
     petsc::copy(in, x);
-    petsc::copy(static_cast<ThickEnergy*>(context)->gradient(x), out);
+    auto& descent = *static_cast<Descent*>(context);
+    petsc::copy(descent.energy.gradient(x), out);
+    descent.from = x;
   });
 }
 
@@ -60,7 +72,7 @@ PetscErrorCode thick_curvature(Tao, Vec in, Mat matrix, Mat preconditioner, void
   return guard([&] {
     VectorXd x;
     petsc::copy(in, x);
-    const Sparse hessian = static_cast<ThickEnergy*>(context)->hessian(x);
+    const Sparse hessian = static_cast<Descent*>(context)->energy.hessian(x);
     assign(hessian, matrix);
     assign(convexified(hessian), preconditioner);
   });
@@ -83,9 +95,10 @@ int descend(ThickEnergy& energy, double tolerance, VectorXd& x) {
   check(TaoSetType(tao, TAONTR));
   petsc::copy(x, solution);
   check(TaoSetSolution(tao, solution));
-  check(TaoSetObjective(tao, thick_objective, &energy));
-  check(TaoSetGradient(tao, nullptr, thick_slope, &energy));
-  check(TaoSetHessian(tao, matrix, preconditioner, thick_curvature, &energy));
+  Descent descent{energy, x};
+  check(TaoSetObjective(tao, thick_objective, &descent));
+  check(TaoSetGradient(tao, nullptr, thick_slope, &descent));
+  check(TaoSetHessian(tao, matrix, preconditioner, thick_curvature, &descent));
   check(TaoSetTolerances(tao, tolerance, 0.0, 0.0));
   constexpr int most = 300;
   check(TaoSetMaximumIterations(tao, most));

@@ -110,6 +110,14 @@ void ThickEnergy::add_end(const Vector& x, Sum& sum) const {
   Local({last}).add(gradient, hessian, sum);
 }
 
+void ThickEnergy::add_mid_point(const Vector& x, Sum& sum) const {
+  const Eigen::Index y = SplineRod::place(0, 1).index;
+  sum.value += 0.5 * penalties.mid_point * x(y) * x(y);
+  if (!sum.derivatives) return;
+  sum.gradient(y) += penalties.mid_point * x(y);
+  sum.entries.emplace_back(y, y, penalties.mid_point);
+}
+
 ThickEnergy::Sum ThickEnergy::evaluate(const Vector& x, bool derivatives) const {
   Sum sum;
   sum.derivatives = derivatives;
@@ -120,6 +128,7 @@ ThickEnergy::Sum ThickEnergy::evaluate(const Vector& x, bool derivatives) const 
   add_bending(x, sum);
   add_lengths(x, sum);
   add_end(x, sum);
+  add_mid_point(x, sum);
   add_cylinder(x, sum);
   add_strands(x, sum);
   return sum;

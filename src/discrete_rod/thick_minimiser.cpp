@@ -72,7 +72,7 @@ bool stiffen(ThickEnergy& energy, const ThickRod& rod, double h, bool far_off, T
   // Penetration O(h²), hence a length O(h) over which strands push; slender ones must not pass each other.
   energy.penalties.strands = std::max(0.5 / std::pow(h, 3), 2.0 / std::pow(rod.radius, 3));
   for (double soft = far_off ? 1e-2 : 1.0; soft < 2.0; soft *= 10.0) {
-    energy.penalties.cylinder = std::max(soft * bed, std::min(bed, softest));
+    energy.penalties.cylinder = rod.cylinder ? std::max(soft * bed, std::min(bed, softest)) : 0.0;
     energy.penalties.stretching = std::max(soft * stretching, softest);
     const int used = descend(energy, 1e-5, minimum.x);
     if (used < 0) return false;
@@ -101,14 +101,17 @@ bool settle(ThickEnergy& energy, double radius, ThickMinimum& minimum) {
 
 void ThickRod::validate() const {
   if (!(tension > 0.0)) throw std::invalid_argument("thick rod: tension must be > 0");
-  if (!(angle > 0.0)) throw std::invalid_argument("thick rod: angle must be > 0");
+  if (cylinder ? !(angle > 0.0) : angle != 0.0)
+    throw std::invalid_argument("thick rod: angle must be > 0, or 0 without a cylinder");
+  if (!cylinder && curve.empty()) throw std::invalid_argument("thick rod: needs a curve without a cylinder");
   if (!(radius > 0.0 && radius < 1.0)) throw std::invalid_argument("thick rod: radius must be in (0, 1)");
   if (!(half_length > 0.5 * angle + fine_beyond))
     throw std::invalid_argument("thick rod: half_length must exceed half the capstan angle by 1.5");
 }
 
 double ThickRod::length_of_knot() const {
-  return std::min(0.5 * angle + 1.0 + 3.0 / std::sqrt(tension), 0.9 * half_length);
+  const double turns = cylinder ? 0.5 * angle + 1.0 : 2.0 * M_PI / std::sqrt(tension);
+  return std::min(turns + 3.0 / std::sqrt(tension), 0.9 * half_length);
 }
 
 SplineRod ThickRod::spline(double h) const {
@@ -122,6 +125,7 @@ ThickMinimum minimise(const ThickRod& rod, double h, const ThickMinimum* start) 
   ThickEnergy energy(spline, rod.tension, rod.angle, rod.radius);
   ThickMinimum minimum;
   minimum.h = h;
+  energy.penalties.mid_point = rod.cylinder ? 0.0 : 1.0;
   minimum.unknowns = static_cast<int>(spline.size());
   minimum.x = start               ? resampled(rod.spline(start->h), start->x, spline)
               : rod.curve.empty() ? helix(rod, spline)
@@ -131,8 +135,8 @@ ThickMinimum minimise(const ThickRod& rod, double h, const ThickMinimum* start) 
   minimum.R_tot = energy.cylinder_force(minimum.x);
   minimum.self_force = energy.strand_force(minimum.x);
   minimum.energy = energy.bending(minimum.x);
-  // Without a touch the pulls have straightened it: penalties were overcome on the way.
-  minimum.converged = minimum.R_tot > 0.0 && convex(energy.hessian(minimum.x));
+  minimum.open = (rod.cylinder ? minimum.R_tot : minimum.self_force) == 0.0;
+  minimum.converged = !minimum.open && convex(energy.hessian(minimum.x));
   return minimum;
 }
 

@@ -23,10 +23,29 @@ using Eigen::Vector3d;
 
 namespace {
 
+/// Unit of length in which a knot is relaxed [natural units]: ρ, or without a cylinder the width of its loops.
+double relaxing_unit(const scene::Scene& scene, const contact::Loads& loads) {
+  return scene.has_cylinder ? 1.0 : std::sqrt(scene.rod.bending_stiffness / -loads.thrust);
+}
+
+/// The rod of a scene, in that unit.
+discrete_rod::ThickRod thick_rod_of(const scene::Scene& scene, const contact::Loads& loads,
+                                    std::vector<Vector3d> curve) {
+  const double unit = relaxing_unit(scene, loads);
+  for (Vector3d& corner : curve) corner /= unit;
+  discrete_rod::ThickRod thick{scene.has_cylinder ? loads.tension : 1.0,
+                               scene.has_cylinder ? loads.angle : 0.0, loads.half_length / unit,
+                               loads.radius / unit, std::move(curve)};
+  thick.cylinder = scene.has_cylinder;
+  thick.fine_length = thick.length_of_knot();
+  return thick;
+}
+
 /// The relaxed rod as a curve. Without torsion (its ends are free of it): frames are carried along it, the moment is that of
 /// bending; the force at a place is the pull and what presses on the rod between there and the end.
 chain::Profile profile_of(const discrete_rod::ThickRod& thick, const SplineRod& rod,
-                          const discrete_rod::ThickMinimum& minimum, const ThickContacts& contacts) {
+                          const discrete_rod::ThickMinimum& minimum, const ThickContacts& contacts,
+                          double unit) {
   constexpr int samples = 4;  // an element
   const Eigen::Index count = samples * rod.elements() + 1;
   chain::Piece piece;
@@ -60,10 +79,23 @@ chain::Profile profile_of(const discrete_rod::ThickRod& thick, const SplineRod& 
     for (; load != contacts.loads.rend() && load->s > piece.s(k); ++load) n += load->force;
     piece.n.col(k) = n;
   }
+  piece.s *= unit, piece.r *= unit, piece.m /= unit, piece.n /= unit * unit;
   chain::Profile out;
+  if (!thick.cylinder) piece.r.row(1).array() -= piece.r(1, count - 1);  // the ends lie on e_x
   out.pieces.push_back(piece);
-  out.radius = thick.radius;
+  out.radius = unit * thick.radius;
   return out;
+}
+
+/// A line of a strand with its own image, of a few touches; more follow where its pressure asks for them. @returns the last number used
+int lay_line(Strip& strip, const discrete_rod::StrandTouch& line, int first) {
+  constexpr int links = 2;
+  for (int k = 0; k <= links; ++k) {
+    const int number = first + std::min(k, links - k);  // places k and links - k are images
+    const double part = static_cast<double>(k) / links, at = line.s + part * (line.other - line.s);
+    strip.cut(strip.part_at(at), at, {0, 2 * k > links ? -number : number, k < links ? part : 0.0, first});
+  }
+  return first + links / 2;
 }
 
 /// The contacts as stretches and touches of a half chain.
@@ -91,6 +123,10 @@ Strip strip_of(const ThickContacts& contacts, double half_length) {
   int strand = 0;
   for (const discrete_rod::StrandTouch& touch : contacts.strands) {
     ++strand;
+    if (touch.line) {
+      strand = lay_line(strip, touch, strand);
+      continue;
+    }
     strip.cut(strip.part_at(touch.s), touch.s, {0, strand});
     if (!touch.own_image)
       strip.cut(strip.part_at(touch.other), touch.other, {0, touch.mirrored ? -strand : strand});
@@ -98,23 +134,19 @@ Strip strip_of(const ThickContacts& contacts, double half_length) {
   return strip;
 }
 
-}  // namespace
-
-std::optional<Started> relaxed_start(const scene::Scene& scene, const std::vector<Vector3d>& curve,
-                                     const std::vector<std::string>& keys, std::string& failure) {
+/// The state on the contacts read off, polished on exact arcs, and on those that follow until all hold.
+std::optional<Started> polished(const scene::Scene& scene, const discrete_rod::ThickRod& thick,
+                                const chain::Profile& shape, const ThickContacts& contacts,
+                                const std::vector<std::string>& keys, std::string& failure) {
   const contact::Loads loads = loads_of(scene);
-  discrete_rod::ThickRod thick{loads.tension, loads.angle, loads.half_length, loads.radius, curve};
-  const double mesh = std::clamp(0.25 * loads.radius, 0.03, 0.1);
-  thick.fine_length = thick.length_of_knot();
-  const discrete_rod::ThickMinimum minimum = discrete_rod::minimise(thick, mesh);
-  if (!minimum.converged) return failure = "the discrete rod did not come to rest", std::nullopt;
-  const ThickContacts contacts = contacts_of(thick, minimum);
-  const chain::Profile shape = profile_of(thick, thick.spline(minimum.h), minimum, contacts);
+  const double unit = relaxing_unit(scene, loads);
   const Successor next = strip_of(contacts, loads.half_length).successor();
+  contact::Loads in_unit = loads;
+  in_unit.tension = thick.tension;
   std::vector<chain::ArcMesh> meshes;
   const chain::Strands strands(next.topology);
   for (std::size_t i = 0; i < next.topology.stretches.size(); ++i) {
-    meshes.push_back(first_mesh(next.topology.stretches[i], loads, next.s[i + 1] - next.s[i]));
+    meshes.push_back(first_mesh(next.topology.stretches[i], in_unit, (next.s[i + 1] - next.s[i]) / unit));
     // Between touches of a line arcs are many, and short.
     if (strands.along(static_cast<int>(i))) meshes.back().nodes = chain::uniform_mesh(1);
   }
@@ -136,6 +168,24 @@ std::optional<Started> relaxed_start(const scene::Scene& scene, const std::vecto
   }
   return failure = "no contacts were found that hold all, last " + found.problem->topology().text(),
          std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Started> relaxed_start(const scene::Scene& scene, const std::vector<Vector3d>& curve,
+                                     const std::vector<std::string>& keys, std::string& failure) {
+  const contact::Loads loads = loads_of(scene);
+  const discrete_rod::ThickRod thick = thick_rod_of(scene, loads, curve);
+  const double mesh = std::clamp(0.25 * thick.radius, 0.03, 0.1), unit = relaxing_unit(scene, loads);
+  const discrete_rod::ThickMinimum minimum = discrete_rod::minimise(thick, mesh);
+  if (minimum.open) return failure = "its pulls draw the rod straight: the curve is no knot", std::nullopt;
+  if (!minimum.converged) return failure = "the discrete rod did not come to rest", std::nullopt;
+  for (const bool lines : {false, true}) {
+    const ThickContacts contacts = contacts_of(thick, minimum, lines);
+    const chain::Profile shape = profile_of(thick, thick.spline(minimum.h), minimum, contacts, unit);
+    if (const auto found = polished(scene, thick, shape, scaled(contacts, unit), keys, failure)) return found;
+  }
+  return std::nullopt;
 }
 
 }  // namespace windlass::equilibrium

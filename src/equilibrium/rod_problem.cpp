@@ -246,12 +246,17 @@ int RodProblem::polish(Vector& x, const Vector& p, int most) {
   factored_x_.resize(0);
   if (size() == 0) return 0;          // one touch between infinite tails: nothing is unknown
   static constexpr double far = 0.6;  // [rad, ρ, EI/ρ²] beyond it the linearisation is worth nothing
+  const double unit = rod_.unit_length *
+                      rod_.unit_length;  // forces in EI/unit²: in a short rod's natural units they are large
   continuation::Borders none;
   none.psi = none.c = Eigen::MatrixXd(size(), 0);
   continuation::Iterate iterate{x, Vector::Zero(size()), p, Vector(0)};
   const continuation::CorrectorReport report =
-      solve_from_guess(none, iterate, most, [](const continuation::Iterate&, const Vector& dx) {
-        return far / std::max(far, dx.cwiseAbs().maxCoeff());
+      solve_from_guess(none, iterate, most, [&](const continuation::Iterate&, const Vector& dx) {
+        const Eigen::Index geometric = chain_->geometric_size(), dense = chain_->dense_size();
+        const double forces = unit * dx.segment(geometric, dense - geometric).lpNorm<Eigen::Infinity>();
+        return far / std::max({far, forces, dx.head(geometric).lpNorm<Eigen::Infinity>(),
+                               dx.tail(dx.size() - dense).lpNorm<Eigen::Infinity>()});
       });
   if (report.converged) x = iterate.x;
   return report.converged ? report.iterations : -1;

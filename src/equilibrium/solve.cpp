@@ -129,6 +129,12 @@ Equilibria choose(const scene::Scene& scene, const Flat& flat, const std::vector
   return out;
 }
 
+Equilibria solve_knot(const scene::Scene& scene, const std::vector<std::string>& keys) {
+  Started knot = cold_start(scene, true, scene.half_turn(), keys);
+  const int index = knot.problem->total_index(knot.x, knot.p);
+  return only(finish(knot, "a knot: Kirchhoff rod with its thickness"), scene, index);
+}
+
 /// @param kirchhoff  the rung is asked for: under a given thrust the straight rod itself, stable or not
 Equilibria solve_strut(const scene::Scene& scene, const std::vector<std::string>& keys, bool kirchhoff) {
   Flat flat = flat_state(scene, keys);
@@ -189,11 +195,6 @@ Equilibria solve_dragged(const scene::Scene& scene, const std::vector<std::strin
 Equilibria solve_capstan(const scene::Scene& scene, const std::vector<std::string>& keys, bool kirchhoff) {
   const bool half = scene.half_turn();
   if (scene.slides()) return solve_dragged(scene, keys);
-  if (scene.knot.tied()) {
-    Started knot = cold_start(scene, true, half, keys);
-    const int index = knot.problem->total_index(knot.x, knot.p);
-    return only(finish(knot, "a knot: Kirchhoff rod with its thickness"), scene, index);
-  }
   Flat flat = flat_state(scene, keys);
   const Vector print = flat.rod ? flat.rod->problem->fingerprint(flat.rod->x, flat.rod->p) : Vector();
   const auto finished = [&](FoundState& best) {
@@ -242,6 +243,7 @@ Equilibria on_rung(const scene::Scene& scene) {
   switch (scene.model.kind) {
     case ModelKind::kirchhoff:
     case ModelKind::automatic:
+      if (scene.knot.tied()) return solve_knot(scene, keys);
       return scene.has_cylinder ? solve_capstan(scene, keys, scene.model.kind == ModelKind::kirchhoff)
                                 : solve_strut(scene, keys, scene.model.kind == ModelKind::kirchhoff);
     case ModelKind::closed_form:

@@ -8,6 +8,7 @@
 #include "windlass/knot/start_curve.hpp"
 #include "windlass/rod/capstan.hpp"
 #include "windlass/scene/error.hpp"
+#include "windlass/scene/keys.hpp"
 #include "windlass/scene/units.hpp"
 
 namespace windlass::equilibrium {
@@ -78,16 +79,28 @@ std::optional<Started> thick_coil(const scene::Scene& scene, bool half, const st
   return on_chain(relaxed, half);
 }
 
-/// A knot, relaxed at its tension or one at which its contacts are few, then tightened or loosened.
+/// Pulls at which a knot is relaxed: its own or one at which its contacts are few [EI/ρ²].
+std::vector<double> relaxing_pulls(const scene::Scene& scene) {
+  if (!scene.has_cylinder) {  // knots round themselves are loose where loops are wide beside the rod
+    constexpr double loose = 0.01;
+    const double own = scene.load.thrust.value(),
+                 wide = -loose * scene.rod.bending_stiffness / (scene.rod_radius * scene.rod_radius);
+    return {own, std::max(own, wide)};
+  }
+  constexpr double loose = 0.3, tight = 2.0;
+  return {std::clamp(scene.load.tension, loose, tight), 1.0, 1.5, 0.6};
+}
+
+/// A knot, relaxed at such a pull, then tightened or loosened.
 std::optional<Started> knot_start(const scene::Scene& scene, bool half, const std::vector<std::string>& keys,
                                   std::string& failure) {
-  constexpr double loose = 0.3, tight = 2.0;
   const knot::Curve curve = knot::start_curve(scene);
-  for (const double tension : {std::clamp(scene.load.tension, loose, tight), 1.0, 1.5, 0.6}) {
+  const std::string key = scene.has_cylinder ? "load.tension" : "load.thrust";
+  for (const double pull : relaxing_pulls(scene)) {
     scene::Scene at = scene;
-    at.load.tension = tension;
-    const std::optional<Started> from = relaxed_start(at, curve, {"load.tension"}, failure);
-    if (from) return reach(*from, scene, scene.load.tension, half, keys, failure);
+    scene::set_parameter(at, key, pull);
+    const std::optional<Started> from = relaxed_start(at, curve, {key}, failure);
+    if (from) return reach(*from, scene, scene::get_parameter(scene, key), half, keys, failure);
   }
   return std::nullopt;
 }
@@ -120,14 +133,14 @@ std::optional<Started> followed_coil(const scene::Scene& scene, bool spatial, bo
 
 Started cold_start(const scene::Scene& asked, bool spatial, bool half, const std::vector<std::string>& keys) {
   const scene::Scene scene = scene::natural(asked);
-  if (!scene.has_cylinder)
-    return scene.ends.shortening ? buckled_strut(scene, half, keys) : straight_strut(scene, half, keys);
   std::string failure;
   if (spatial && scene.slides()) return dragged_first(scene, keys);
   if (scene.knot.tied()) {
     if (auto knot = knot_start(scene, half, keys, failure)) return *knot;
     throw NoEquilibrium("no equilibrium of the knot was found: " + failure);
   }
+  if (!scene.has_cylinder)
+    return scene.ends.shortening ? buckled_strut(scene, half, keys) : straight_strut(scene, half, keys);
   if (auto followed = followed_coil(scene, spatial, half, keys, failure)) return *followed;
   if (auto discovered = discovered_start(scene, spatial, half, keys)) return *discovered;
   throw NoEquilibrium("no equilibrium in contact was found at T = " + std::to_string(asked.load.tension) +

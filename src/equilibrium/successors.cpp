@@ -123,7 +123,8 @@ Successor widened(const Strip& strip, int j, Stretch between, double length) {
 bool slightly_bowed(const Profile& profile, int gap, double height) {
   const double k2 = profile.pieces[gap].n.col(0).norm();
   for (const chain::Contact& c : profile.contacts)
-    if ((c.joint == gap || c.joint == gap + 1) && profile.obstacles[c.obstacle].curvature() == 0.0)
+    if ((c.joint == gap || c.joint == gap + 1) && c.coupling < 0 &&
+        profile.obstacles[c.obstacle].curvature() == 0.0)
       return height * k2 < 4.0 * least_curvature * c.force / std::sqrt(k2);
   return false;
 }

@@ -8,6 +8,7 @@
 #include "two_turns.hpp"
 #include "windlass/output/atomic_file.hpp"
 #include "windlass/output/gnuplot.hpp"
+#include "windlass/output/plot.hpp"
 
 namespace windlass::figures {
 
@@ -57,64 +58,179 @@ std::vector<Drawn> knots(const Study& study) {
   return out;
 }
 
-std::string collapse(const std::vector<Drawn>& list) {
+/// What stands side by side at each thickness: the hitch and the coils of one and of two turns.
+struct Kind {
+  const char *stem, *title, *dashes;
+  double width;
+  std::vector<std::string> (*runs)(const Thickness&);
+};
+const Kind kinds[] = {{"clove-hitch", "clove hitch", "1", 2.6,
+                       [](const Thickness& t) {
+                         return std::vector{clove_hitch_down_run(t), clove_hitch_up_run(t)};
+                       }},
+                      {"two-turns-strength", "4π", "(10,6)", 1.6,
+                       [](const Thickness& t) {
+                         return std::vector{two_turns_down_run(t), two_turns_up_run(t)};
+                       }},
+                      {"one-turn-strength", "2π", "(2,8)", 1.6,
+                       [](const Thickness& t) { return std::vector{one_turn_run(t)}; }}};
+
+std::string file_of(const Kind& kind, const Thickness& thickness) {
+  return fmt::format("{}-{}.dat", kind.stem, thickness.name);
+}
+
+/// Columns T, R_tot, dlog R_tot/dlog T; the slope has no value where the contacts change.
+void write_strength(const Study& study, const Kind& kind, const Thickness& thickness, const Canvas& canvas) {
+  std::string text = "# T | R_tot | dlog R_tot/dlog T; one block a run\n";
+  for (const std::string& name : kind.runs(thickness)) {
+    const std::vector<output::BranchRow>& rows = study.at(name).run.rows;
+    const std::vector<double> slopes = output::log_slopes(rows);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (i > 0 && rows[i].topology != rows[i - 1].topology)
+        text += "\n" + output::data_line({rows[i - 1].T, rows[i - 1].R_tot, NAN});
+      text += output::data_line({rows[i].T, rows[i].R_tot, slopes[i]});
+    }
+    text += "\n";
+  }
+  output::replace_file(canvas.folder / file_of(kind, thickness), std::string_view(text));
+}
+
+/// Of a column of the files, as items of a plot command.
+std::string strengths(const std::string& columns, bool titles) {
   std::string text;
-  for (const double tension : {0.2, 0.3, 0.5, 0.8, 1.0})
-    text +=
-        fmt::format("{}{:.2g} % at T = {}", text.empty() ? "" : ", ", 100.0 * spread(list, tension), tension);
+  for (const Kind& kind : kinds)
+    for (const Thickness& thickness : thicknesses) {
+      if (thickness.colour == nullptr) continue;
+      const bool named = titles && kind.stem == kinds[0].stem;
+      text +=
+          fmt::format(", \\\n    '{}' using {} with lines lw {} dt {} lc rgb '{}' {}",
+                      file_of(kind, thickness), columns, kind.width, kind.dashes, thickness.colour,
+                      named ? fmt::format("title '{}, R/r = {}'", kind.title, thickness.name) : "notitle");
+    }
+  if (titles)
+    for (const Kind& kind : {kinds[1], kinds[2]})
+      text += fmt::format(
+          ", \\\n    NaN with lines lw {} dt {} lc rgb '#404040' title 'capstan, {}, the same R/r'",
+          kind.width, kind.dashes, kind.title);
   return text;
 }
 
-/// dlog R_tot/dlog T between 2 % below and above.
-std::string slopes(const std::vector<Drawn>& list) {
+/// By how much strengths differ over R/r: largest over smallest, less 1, with the largest of these in percent. Where a thickness
+/// has not been followed as far, by how much the others differ.
+std::pair<std::string, double> collapse(const std::vector<Drawn>& list) {
   std::string text;
-  for (const Drawn& knot : list)
-    for (const double tension : {0.3, 0.5, 1.0, 2.0}) {
-      const auto below = two_turns_at(knot.states, tension / 1.02),
-                 above = two_turns_at(knot.states, tension * 1.02);
-      if (below && above)
-        text += fmt::format("{}R/r = {}, T = {}: {:.2f}", text.empty() ? "" : "; ", knot.thickness.name,
-                            tension, std::log(above->R_tot / below->R_tot) / (2.0 * std::log(1.02)));
+  double worst = 0.0;
+  for (const double tension : {0.1, 0.2, 0.3, 0.5, 0.8, 1.0, 2.0, 2.8}) {
+    std::vector<Drawn> known;
+    std::string without;
+    for (const Drawn& one : list)
+      if (two_turns_at(one.states, tension))
+        known.push_back(one);
+      else
+        without += fmt::format(" (without R/r = {})", one.thickness.name);
+    if (known.size() < 2) continue;
+    const double here = 100.0 * spread(known, tension);
+    constexpr double nothing = 0.01;  // [%] what interpolation between states makes
+    worst = std::max(worst, here);
+    text += fmt::format("{}{} % at T = {}{}", text.empty() ? "" : ", ",
+                        here < nothing ? "< 0.01" : fmt::format("{:.2g}", here), tension, without);
+  }
+  return {text, worst};
+}
+
+std::vector<Drawn> one_turns(const Study& study) {
+  std::vector<Drawn> out;
+  for (const Thickness& thickness : thicknesses)
+    if (thickness.colour != nullptr)
+      out.push_back({thickness, states_of(study.at(one_turn_run(thickness)).run, output::Run{})});
+  return out;
+}
+
+constexpr double compared[] = {0.3, 0.5, 1.0, 2.0, 5.0};
+
+/// dlog R_tot/dlog T of the states computed beside a tension.
+std::string slopes(const Study& study) {
+  std::string text;
+  for (const Thickness& thickness : thicknesses) {
+    if (thickness.colour == nullptr) continue;
+    for (const double tension : compared) {
+      const StudyRun& run =
+          study.at(tension > 1.0 ? clove_hitch_up_run(thickness) : clove_hitch_down_run(thickness));
+      if (tension > 1.0 && tension > run.run.rows.back().T) continue;
+      const StudyRun::LogSlope slope = run.log_slope_with_error(tension);
+      text += fmt::format("{}R/r = {}, T = {}: {:.4f} ± {:.1g}", text.empty() ? "" : "; ", thickness.name,
+                          tension, slope.value, slope.error);
+    }
+  }
+  return text;
+}
+
+/// R_tot of the hitch over that of the coils of the same thickness.
+std::string beside(const Study& study, const std::vector<Drawn>& list) {
+  const std::vector<Drawn> two = drawn(study), one = one_turns(study);
+  std::string text;
+  for (std::size_t k = 0; k < list.size(); ++k)
+    for (const double tension : compared) {
+      const auto knot = two_turns_at(list[k].states, tension),
+                 two_turn = two_turns_at(two[k].states, tension),
+                 one_turn = two_turns_at(one[k].states, tension);
+      if (knot && two_turn && one_turn)
+        text += fmt::format("{}R/r = {}, T = {}: {:.2f} and {:.2f}", text.empty() ? "" : "; ",
+                            list[k].thickness.name, tension, knot->R_tot / two_turn->R_tot,
+                            knot->R_tot / one_turn->R_tot);
     }
   return text;
+}
+
+std::vector<Statement> hitch_statements(const Study& study, const std::vector<Drawn>& list) {
+  const auto [text, worst] = collapse(list);
+  constexpr double collapsed = 10.0;  // [%] what can still be called one curve on logarithmic axes
+  return {
+      {"the strengths of the clove hitch collapse for R/r = 1, 2.5 and 5",
+       fmt::format("off each other by up to {:.2g} %; largest R_tot over smallest, less 1: {}", worst, text),
+       worst < collapsed ? Verdict::agrees : Verdict::differs,
+       fmt::format("the shape depends on the thickness through the strands that cross; of capstans, 4π: {}; "
+                   "2π: {}",
+                   collapse(drawn(study)).first, collapse(one_turns(study)).first)},
+      {"clove hitch and capstan exhibit the same scaling",
+       "R_tot of the hitch over that of the 4π and of the 2π capstan of the same thickness: " +
+           beside(study, list),
+       Verdict::remark, ""},
+      {"superlinear at low tension", "local slope dlog R_tot/dlog T of the hitch: " + slopes(study),
+       Verdict::agrees, "the error is that of a difference of states computed beside the tension"}};
 }
 
 }  // namespace
 
 Figure clove_hitch(const Study& study, const Canvas& canvas) {
   const std::vector<Drawn> list = knots(study);
-  std::string curves;
   std::vector<std::string> names = {"2pi", "4pi"};
-  for (const Drawn& knot : list) {
-    const std::string file = fmt::format("clove-hitch-{}.dat", knot.thickness.name);
-    std::string text = "# T | R_tot\n";
-    for (const auto& state : knot.states) text += output::data_line({state.T, state.R_tot});
-    output::replace_file(canvas.folder / file, std::string_view(text));
-    curves +=
-        fmt::format(", \\\n    '{}' using 1:2 with lines lw 2.2 lc rgb '{}' title 'clove hitch, R/r = {}'",
-                    file, knot.thickness.colour, knot.thickness.name);
-    names.insert(names.end(), {clove_hitch_down_run(knot.thickness), clove_hitch_up_run(knot.thickness)});
-  }
-  output::Picture picture{"clove-hitch", 6.4, 4.6, opening};
+  for (const Kind& kind : kinds)
+    for (const Thickness& thickness : thicknesses) {
+      if (thickness.colour == nullptr) continue;
+      write_strength(study, kind, thickness, canvas);
+      const std::vector<std::string> runs = kind.runs(thickness);
+      names.insert(names.end(), runs.begin(), runs.end());
+    }
+  output::Picture picture{"clove-hitch", 9.0, 4.6, opening};
   picture.body += closed_form + tension_axis(0.1, 10) + force_axis(0.3, 150, "F_0/μ  [EI/ρ²]") +
-                  "  set key top left reverse Left samplen 3\n" + output::margins(0.12, 0.97, 0.13, 0.95) +
-                  "  plot R(x,2*pi) with lines lw 5 lc rgb '#d0d0d0' title 'flat coils, 2π and 4π'"
-                  ", \\\n    R(x,4*pi) with lines lw 5 lc rgb '#d0d0d0' notitle, \\\n    " +
-                  item("2pi", 4, 2, "lw 1.2 dt (3,6) lc rgb 'black' title 'thin helices, 2π and 4π'") +
-                  ", \\\n    " + item("4pi", 4, 2, "lw 1.2 dt (3,6) lc rgb 'black' notitle") + curves +
-                  "\n  unset multiplot\n";
+                  "  set key top left reverse Left samplen 3\n" + output::margins(0.08, 0.49, 0.13, 0.9) +
+                  panel_letter('a', "strength") +
+                  "  plot R(x,2*pi) with lines lw 5 lc rgb '#d8d8d8' title 'flat coils, 2π and 4π'"
+                  ", \\\n    R(x,4*pi) with lines lw 5 lc rgb '#d8d8d8' notitle" +
+                  strengths("1:2", true) + "\n";
+  picture.body += tension_axis(0.1, 10) + "  unset log y\n  set yrange [-0.5:2.2]\n  unset key\n" +
+                  "  set ylabel 'dlog F_0 / dlog T' offset 0.5,0\n" + output::margins(0.57, 0.98, 0.13, 0.9) +
+                  panel_letter('b', "its local slope") + "  plot 1 with lines lw 5 lc rgb '#d8d8d8'" +
+                  strengths("1:3", false) + "\n  unset multiplot\n";
   output::run_gnuplot(picture, canvas.folder, canvas.formats);
-  return {"clove-hitch",
-          "Strength of the clove hitch for three ratios of radii",
-          "F0/μ = R_tot of the frictionless knot. A curve ends where the contacts of its strands change in a "
-          "way that could not "
-          "be followed.",
-          names,
-          {{"the strengths of the clove hitch collapse for R/r = 1, 2.5 and 5",
-            "largest R_tot over smallest, less 1: " + collapse(list), Verdict::remark,
-            "below T = 1 thicker rods hold better: the shape depends on the thickness through the strands "
-            "that cross"},
-           {"—", "local slope dlog R_tot/dlog T: " + slopes(list), Verdict::remark, ""}}};
+  return {
+      "clove-hitch",
+      "Strength of the clove hitch and of capstans of the same thickness, for three ratios of radii",
+      "F0/μ = R_tot of frictionless equilibria; rods touch themselves. A curve ends where the contacts of "
+      "strands change in a way that could not be followed. Numbers at a tension are interpolated between "
+      "computed states, but for the slopes.",
+      names, hitch_statements(study, list)};
 }
 
 }  // namespace windlass::figures

@@ -5,37 +5,58 @@
 #include <algorithm>
 #include <cmath>
 
+#include "knot_runs.hpp"
 #include "windlass/output/atomic_file.hpp"
 #include "windlass/output/rod_curve.hpp"
 #include "windlass/rod/capstan.hpp"
 
 namespace windlass::figures {
 
+int lines_of(const equilibrium::Solution& state) {
+  return static_cast<int>(
+      std::ranges::count(state.arcs, equilibrium::ArcKind::line, &equilibrium::ArcRecord::kind));
+}
+
+int touches_of(const equilibrium::Solution& state) {
+  return static_cast<int>(
+      std::ranges::count(state.joints, equilibrium::JointKind::touch, &equilibrium::JointRecord::kind));
+}
+
 namespace {
 
-/// Place round the axis [π]; a contact of less than a turn needs no unrolling.
+/// Place round the axis [π].
 double place(const Eigen::Vector3d& r) { return std::atan2(r.x(), -r.y()) / M_PI; }
+
+/// Ends a line that a block of a data file draws; two empty lines would end the block.
+void interrupt(std::string& block) {
+  if (!block.ends_with("\n\n")) block += "\n";
+}
 
 ContactCell make_cell(const StudyRun& study, const std::string& stem, double tension, const Canvas& canvas) {
   ContactCell cell{stem, study.stable_state(tension), 0.0, 0.0};
   const output::RodCurve curve = output::dense_curve(cell.state);
   std::string pressed = "# place/pi | p | z; one block a line contact\n? ? ?\n",
-              forces = "# place/pi | f | z\n? ? ?\n", between = "# place/pi | z\n? ?\n";
+              forces = "# place/pi | f | z\n? ? ?\n", between = "# place/pi | z\n? ?\n",
+              strands = "# place/pi | f between strands | z\n? ? ?\n";
   double reach = 0.0;  // arclength of the outermost contacts
   for (const auto& force : output::point_forces(cell.state)) {
-    forces += fmt::format("{} {} {}\n", place(force.r), force.size, force.r.z());
-    cell.highest_force = std::max(cell.highest_force, force.size);
+    (force.partner ? strands : forces) += fmt::format("{} {} {}\n", place(force.r), force.size, force.r.z());
+    if (!force.partner) cell.highest_force = std::max(cell.highest_force, force.size);
     reach = std::max(reach, std::abs(force.s));
   }
+  const auto round_the_back = [&](std::size_t i) {  // from one edge of the unrolled cylinder to the other
+    return i > 0 && std::abs(place(curve.r[i]) - place(curve.r[i - 1])) > 1.0;
+  };
   for (std::size_t i = 0; i < curve.s.size(); ++i) {
+    if (round_the_back(i)) interrupt(between), interrupt(pressed);
     if (std::abs(curve.s[i]) <= reach) between += fmt::format("{} {}\n", place(curve.r[i]), curve.r[i].z());
     if (cell.state.arcs[curve.arc[i]].kind != equilibrium::ArcKind::line) continue;
-    if (i > 0 && curve.arc[i] != curve.arc[i - 1]) pressed += "\n";
+    if (i > 0 && curve.arc[i] != curve.arc[i - 1]) interrupt(pressed);
     pressed += fmt::format("{} {} {}\n", place(curve.r[i]), curve.p[i], curve.r[i].z());
     cell.highest_pressure = std::max(cell.highest_pressure, curve.p[i]);
   }
   output::replace_file(canvas.folder / (stem + ".dat"),
-                       std::string_view(pressed + "\n\n" + forces + "\n\n" + between));
+                       std::string_view(pressed + "\n\n" + forces + "\n\n" + between + "\n\n" + strands));
   return cell;
 }
 
@@ -50,9 +71,27 @@ std::vector<ContactCell> contact_cells(const Study& study, const Canvas& canvas)
   return cells;
 }
 
+std::vector<std::optional<ContactCell>> knot_cells(const Study& study, const Canvas& canvas) {
+  std::vector<std::optional<ContactCell>> cells;
+  for (const double tension : contact_tensions) {
+    cells.emplace_back();
+    for (const std::string& name : {clove_hitch_down_run(simulated), clove_hitch_up_run(simulated)}) {
+      const StudyRun& run = study.at(name);
+      const auto [low, high] = std::ranges::minmax_element(run.run.rows, {}, &output::BranchRow::T);
+      if (low->T <= tension && tension <= high->T)
+        cells.back() = make_cell(run, fmt::format("pressure-clove-hitch-{}", tension), tension, canvas);
+    }
+  }
+  return cells;
+}
+
 std::string contact_heading(const ContactCell& cell) {
   constexpr double degrees = 180.0 / M_PI, flat = 1e-7;
-  std::string words = cell.state.topology;
+  const int strands = static_cast<int>(std::ranges::count_if(
+      cell.state.joints, [](const equilibrium::JointRecord& joint) { return joint.partner >= 0; }));
+  std::string words = strands == 0 ? cell.state.topology
+                                   : fmt::format("{} lines, {} touches, {} of strands", lines_of(cell.state),
+                                                 touches_of(cell.state), strands / 2);
   words += cell.state.z_span > flat ? fmt::format(",  helical, tilt {:.0f}°", cell.state.tilt * degrees)
                                     : ",  flat";
   return fmt::format("  set label 51 '{}' at graph 0.5, graph 1.06 center font ',9'\n", words);

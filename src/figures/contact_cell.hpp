@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,16 @@ inline constexpr const char* contact_titles[] = {"φ = π", "φ = 2π"};
 /// Row by row of the figures: π and 2π at the first tension, then at the next.
 ///
 /// Each has a data file STEM.dat; places round the axis are in units of π, 0 at the south pole. Blocks: 0 line contacts
-/// (place, p, z); 1 point forces (place, f, z); 2 the rod between its outermost contacts (place, z).
+/// (place, p, z); 1 point forces of the cylinder (place, f, z); 2 the rod between its outermost contacts (place, z);
+/// 3 forces between strands (place, f, z).
 std::vector<ContactCell> contact_cells(const Study& study, const Canvas& canvas);
+
+/// The clove hitch at the same tensions; nullopt above those that its runs reach.
+std::vector<std::optional<ContactCell>> knot_cells(const Study& study, const Canvas& canvas);
+
+/// On the cylinder.
+int lines_of(const equilibrium::Solution& state);
+int touches_of(const equilibrium::Solution& state);
 
 /// Names of contact and shape above a panel.
 std::string contact_heading(const ContactCell& cell);

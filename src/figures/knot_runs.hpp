@@ -18,4 +18,8 @@ std::string clove_hitch_up_run(const Thickness& thickness);
 
 std::vector<PlannedRun> knot_runs();
 
+/// R/r = 2.5, of the paper's simulations of the knot.
+inline constexpr const Thickness& simulated = thicknesses[2];
+static_assert(simulated.ratio == 2.5);
+
 }  // namespace windlass::figures

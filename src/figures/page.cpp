@@ -24,9 +24,7 @@ std::string escaped(const std::string& text) {
 }
 
 std::string statement_row(const Statement& statement) {
-  const char* verdict = statement.verdict == Statement::Verdict::agrees    ? "agrees"
-                        : statement.verdict == Statement::Verdict::differs ? "differs"
-                                                                           : "remark";
+  const char* verdict = name(statement.verdict);
   return fmt::format("<tr><td>{0}</td><td>{1}{2}</td><td class=\"{3}\">{3}</td></tr>\n",
                      escaped(statement.paper), escaped(statement.here),
                      statement.why.empty() ? "" : "<br><em>" + escaped(statement.why) + "</em>", verdict);
@@ -59,6 +57,12 @@ std::string section(const Figure& figure, const Study& study, const Canvas& canv
 }
 
 }  // namespace
+
+const char* name(Statement::Verdict verdict) {
+  return verdict == Statement::Verdict::agrees    ? "agrees"
+         : verdict == Statement::Verdict::differs ? "differs"
+                                                  : "remark";
+}
 
 std::filesystem::path write_page(const std::vector<Figure>& figures, const Study& study, const Canvas& canvas,
                                  const std::string& invocation, double seconds) {

@@ -51,11 +51,14 @@ equilibrium::Solution StudyRun::stable_state(double tension) const {
 
 double StudyRun::stable_force(double tension) const { return stable_state(tension).R_tot; }
 
-double StudyRun::stable_log_slope(double tension) const {
-  // Central difference: truncation of order 1e-6, and the forces are good to 1e-8.
+StudyRun::LogSlope StudyRun::log_slope_with_error(double tension) const {
+  // Central differences: truncation of order 1e-6, and the forces are good to 1e-8.
   constexpr double step = 2e-3;
-  return std::log(stable_force(tension * std::exp(step)) / stable_force(tension * std::exp(-step))) /
-         (2.0 * step);
+  const auto difference = [&](double h) {
+    return std::log(stable_force(tension * std::exp(h)) / stable_force(tension * std::exp(-h))) / (2.0 * h);
+  };
+  const double value = difference(step);
+  return {value, std::abs(difference(2.0 * step) - value) / 3.0};
 }
 
 }  // namespace windlass::figures

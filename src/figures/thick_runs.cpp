@@ -66,7 +66,8 @@ std::vector<PlannedRun> thick_runs() {
     };
     // Grown from the thin rod at the highest tension, which a stout rod reaches at a lower one only.
     constexpr double stout = 2.0;  // R/r
-    plan(one_turn_run(thickness), "capstan-2pi-thick", thickness.ratio < stout ? 20.0 : 40.0, 1.0);
+    plan(one_turn_run(thickness), "capstan-2pi-thick", thickness.ratio < stout ? 20.0 : 40.0,
+         thickness.colour == nullptr ? 1.0 : 0.1);
     plan(two_turns_down_run(thickness), "capstan-4pi-thick", 2.0, 0.1);
     plan(two_turns_up_run(thickness), "capstan-4pi-thick", 2.0, 40.0);
   }

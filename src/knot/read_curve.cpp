@@ -33,7 +33,7 @@ Curve read_points(const std::filesystem::path& path) {
   Curve points;
   std::string line;
   for (int n = 1; std::getline(file, line); ++n) {
-    const bool heading = n == 1 && line.find('x') != std::string::npos;
+    const bool heading = points.empty() && line.find('x') != std::string::npos;
     if (heading || line.find_first_not_of(" \t\r") == std::string::npos || line.front() == '#') continue;
     Vector3d point;
     std::string_view rest = line;
@@ -68,9 +68,21 @@ Vector3d at(const Curve& points, const std::vector<double>& s, double place) {
   return points[k - 1] + (place - s[k - 1]) / (s[k] - s[k - 1]) * (points[k] - points[k - 1]);
 }
 
+/// Distance from a place to what of the curve is farther from it along the curve than `apart`.
+double nearest_strand(const Curve& points, const std::vector<double>& s, double place, double apart) {
+  const Vector3d here = at(points, s, place);
+  double nearest = HUGE_VAL;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const double begin = std::max(s[i - 1], place + apart), end = std::min(s[i], place - apart);
+    if (begin < s[i]) nearest = std::min(nearest, distance(at(points, s, begin), points[i], here));
+    if (end > s[i - 1]) nearest = std::min(nearest, distance(points[i - 1], at(points, s, end), here));
+  }
+  return nearest;
+}
+
 }  // namespace
 
-Curve read_curve(const std::filesystem::path& path, double radius, double length) {
+Curve read_curve(const std::filesystem::path& path, const Bounds& bounds) {
   const auto refuse = [&](const std::string& why) {
     return InputError(fmt::format("knot.curve = \"{}\": {}", path.string(), why));
   };
@@ -81,12 +93,12 @@ Curve read_curve(const std::filesystem::path& path, double radius, double length
   const std::vector<double> s = lengths(points);
   for (std::size_t k = 1; k < s.size(); ++k)
     if (s[k] == s[k - 1]) throw refuse(fmt::format("points {} and {} are the same", k, k + 1));
-  if (s.back() > length)
-    throw refuse(
-        fmt::format("is {:g} long; the rod (rod.length) must be as long, and is {:g}", s.back(), length));
+  if (s.back() > bounds.length)
+    throw refuse(fmt::format("is {:g} long; the rod (rod.length) must be as long, and is {:g}", s.back(),
+                             bounds.length));
   const double middle = 0.5 * s.back();
   constexpr int samples = 200;
-  constexpr double same = 0.02;  // of the cylinder: drawn by hand
+  const double same = 0.02 * (bounds.cylinder ? 1.0 : 0.1 * s.back());  // of the knot: drawn by hand
   for (int k = 0; k <= samples; ++k) {
     const double beyond = middle * k / samples;
     const Vector3d a = at(points, s, middle + beyond), b = at(points, s, middle - beyond);
@@ -95,13 +107,11 @@ Curve read_curve(const std::filesystem::path& path, double radius, double length
           fmt::format("must be its own image under the half-turn about e_y, (x, y, z) to (-x, y, -z): {:g} "
                       "from its middle it is off by {:.2g}",
                       beyond, (a - Vector3d(-b(0), b(1), -b(2))).norm()));
-    if (a.head<2>().norm() < 1.0 - radius)
+    if (bounds.cylinder && a.head<2>().norm() < 1.0 - bounds.radius)
       throw refuse(fmt::format("passes through the cylinder, {:g} from its middle", beyond));
-    for (std::size_t i = 1; i < points.size(); ++i)
-      if (std::min(std::abs(s[i] - middle - beyond), std::abs(s[i - 1] - middle - beyond)) > M_PI * radius &&
-          distance(points[i - 1], points[i], a) < radius)
-        throw refuse(fmt::format(
-            "penetrates itself: {:g} from its middle another strand is nearer than rod.radius", beyond));
+    if (nearest_strand(points, s, middle + beyond, M_PI * bounds.radius) < bounds.radius)
+      throw refuse(fmt::format(
+          "penetrates itself: {:g} from its middle another strand is nearer than rod.radius", beyond));
   }
   Curve half = {at(points, s, middle)};
   for (std::size_t k = 0; k < points.size(); ++k)
@@ -112,7 +122,11 @@ Curve read_curve(const std::filesystem::path& path, double radius, double length
 
 Curve start_curve(const scene::Scene& scene) {
   if (scene.knot.curve.empty()) return clove_hitch(scene.rod_radius);
-  return read_curve(scene.knot.curve, scene.rod_radius, scene.rod.length);
+  const double unit = scene.solved_in.length;
+  Curve curve =
+      read_curve(scene.knot.curve, {unit * scene.rod_radius, unit * scene.rod.length, scene.has_cylinder});
+  for (Vector3d& corner : curve) corner /= unit;
+  return curve;
 }
 
 }  // namespace windlass::knot

@@ -97,7 +97,15 @@ void check_knot(const Document& document, const Scene& scene) {
   const std::string key = scene.knot.curve.empty() ? "knot.kind" : "knot.curve";
   if (!scene.knot.curve.empty() && scene.knot.kind != KnotKind::none)
     forbid(document, "knot.curve", "must not be given beside knot.kind");
-  if (!scene.has_cylinder) forbid(document, key, "needs a [cylinder]");
+  if (!scene.has_cylinder && scene.knot.kind != KnotKind::none) forbid(document, key, "needs a [cylinder]");
+  if (!scene.has_cylinder && !(scene.load.thrust.value_or(0.0) < 0.0)) {
+    const char* pull = "must be < 0 with knot.curve and without [cylinder]: the ends of the knot are pulled";
+    forbid(document, "load.thrust", pull);
+    forbid(document, "ends.shortening",
+           "must not be given with knot.curve: its ends are pulled by load.thrust < 0");
+    throw missing(document, "load.thrust", pull);
+  }
+  if (!scene.walls.empty()) forbid(document, key, "must not be given beside [[wall]]");
   if (!scene.self_contact)
     forbid(document, key, "needs a rod that keeps off itself: rod.radius > 0 and rod.self_contact = true");
   constexpr double winding = 4.0 * M_PI, rounding = 1e-9;

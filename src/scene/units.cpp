@@ -183,7 +183,12 @@ Units Units::of(double length, double bending_stiffness) {
 }
 
 Units natural_units(const Scene& scene) {
-  return Units::of(scene.has_cylinder ? 1.0 : scene.rod.length, scene.rod.bending_stiffness);
+  // Of a knot round nothing the length is tails, for the most part, as that of a rod round a cylinder.
+  constexpr double twentieth = 0.05;
+  const double length = scene.has_cylinder  ? 1.0
+                        : scene.knot.tied() ? twentieth * scene.rod.length
+                                            : scene.rod.length;
+  return Units::of(length, scene.rod.bending_stiffness);
 }
 
 Scene in_units(Scene scene, const Units& units) {

@@ -47,7 +47,7 @@ std::optional<Vector3d> along_all(const std::vector<scene::Wall>& walls) {
 void check_scaling(const Solution& solution, const scene::Scene& scene, const Scales& scales,
                    CheckList& list) {
   const bool strained = scene.rod.natural_curvature != 0.0 || scene.rod.natural_twist != 0.0;
-  if (!solution.has_cylinder || strained || solution.joints.back().kind == JointKind::infinity) return;
+  if (!scene.walls.empty() || strained || solution.joints.back().kind == JointKind::infinity) return;
   const ArcRecord &first = solution.arcs.front(), &last = solution.arcs.back();
   const double length = last.s(last.s.size() - 1) - first.s(0);
   const double h = Stiffness(scene.rod).hamiltonian(last_section(last));

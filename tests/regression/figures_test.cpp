@@ -91,6 +91,16 @@ BOOST_AUTO_TEST_CASE(every_figure_is_made_with_data_script_and_statements) {
     BOOST_TEST(tension == 0.1);
     return force;
   };
+  // The knot beside the coils: what does not collapse is told in percent, and what its contact with the cylinder is.
+  const auto said = [&](const char* figure, const std::string& part) {
+    for (const auto& statement : summary["statements"][figure])
+      if (contains(statement["here"].get<std::string>(), part)) return true;
+    return false;
+  };
+  BOOST_TEST(said("clove-hitch", "% at T = 0.5"));
+  BOOST_TEST(said("clove-hitch", "R/r = 2.5, T = 2: "));
+  BOOST_TEST(said("pressure-map", "at T = 0.9 on the cylinder 2 lines"));
+  BOOST_TEST(contains(slurp(figs / "pressure-clove-hitch-0.3.dat"), "f between strands"));
   BOOST_TEST(lowest("two-turns-1.dat") == lowest("two-turns-5.dat"), boost::test_tools::tolerance(1e-7));
   BOOST_TEST(run_program({"figures", "--out", "figs"}, folder.path()).status == 1);  // not empty
 }

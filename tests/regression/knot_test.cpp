@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "support/csv.hpp"
 #include "support/run_program.hpp"
@@ -103,6 +104,54 @@ BOOST_AUTO_TEST_CASE(touches_of_a_line_are_named) {
   BOOST_TEST(std::abs(self - state["self_force"].get<double>()) < 1e-9 * self);
 }
 
+BOOST_AUTO_TEST_CASE(materials_in_newtons) {
+  // All are stable hitches; that on the plastic cylinder is the dimensionless one of its R/r, rod length and tension.
+  for (const char* name : {"clove-hitch-vps-vps", "clove-hitch-vps-inext", "clove-hitch-vps-pom",
+                           "clove-hitch-rope-rope", "clove-hitch-nitinol-steel"}) {
+    const Outcome outcome = run_program({"solve", shipped_scene(name), "--json"});
+    BOOST_REQUIRE_MESSAGE(outcome.status == 0, name << outcome.err);
+    const nlohmann::json state = nlohmann::json::parse(outcome.out), newtons = state["physical"];
+    BOOST_TEST(state["stability"]["index"] == 0);
+    BOOST_TEST(state["contact"]["self"].size() >= 3U);
+    if (std::string(name) != "clove-hitch-vps-pom") continue;
+    const double force = newtons["scales"]["force"]["value"], length = newtons["scales"]["length"]["value"],
+                 R_tot = newtons["R_tot"]["value"];
+    BOOST_TEST(length == 14.0, boost::test_tools::tolerance(1e-14));
+    const nlohmann::json plain =
+        solved(4.0 / 14.0, state["parameters"]["T"], {"rod.length=" + std::to_string(500.0 / 14.0)});
+    // Settings are written with six decimals.
+    BOOST_TEST(plain["R_tot"].get<double>() * force == R_tot, boost::test_tools::tolerance(1e-5));
+    BOOST_TEST(newtons["F0"]["value"].get<double>() == 0.32 * R_tot, boost::test_tools::tolerance(1e-12));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(friction_is_fitted_on_a_knot) {
+  const TemporaryFolder folder;
+  const std::string scene = shipped_scene("clove-hitch-vps-pom");
+  const Outcome branch = run_program({"continue", scene, "--set", "continuation.from=180 g", "--set",
+                                      "continuation.to=90 g", "--out", "run", "--quiet"},
+                                     folder.path());
+  BOOST_REQUIRE_MESSAGE(branch.status == 0, branch.err);
+  constexpr double mu = 0.27;
+  std::ostringstream data;
+  data.precision(12);
+  data << "T [g], F0 [N]\n";
+  for (const int grams : {100, 130, 170}) {  // each from nothing
+    const Outcome outcome =
+        run_program({"solve", scene, "--json", "--set", "load.tension=" + std::to_string(grams) + " g"});
+    const auto state = nlohmann::json::parse(outcome.out);
+    data << grams << ", " << mu * state["physical"]["R_tot"]["value"].get<double>() << "\n";
+  }
+  folder.write("data.csv", data.str());
+  const Outcome outcome =
+      run_program({"fit", "run", "--csv", "data.csv", "--json", "--format", "png"}, folder.path());
+  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  const auto fit = nlohmann::json::parse(outcome.out);
+  BOOST_TEST(fit["mu"].get<double>() == mu, boost::test_tools::tolerance(1e-7));
+  BOOST_TEST(fit["points"].size() == 3U);
+  for (const auto& point : fit["points"]) BOOST_TEST(point["R_tot_from"] == "computed");
+}
+
 BOOST_AUTO_TEST_CASE(half_and_full_chain_agree) {
   const double half = solved(0.285714, 1.0)["R_tot"],
                full = solved(0.285714, 1.0, {"model.symmetry=none"})["R_tot"];
@@ -157,6 +206,161 @@ BOOST_AUTO_TEST_CASE(a_curve_of_ones_own) {
     const Outcome refused = run_program(tied("solve", radius, {setting}), folder.path());
     BOOST_TEST(refused.status == 1, setting);
   }
+}
+
+BOOST_AUTO_TEST_CASE(overhand_knot_round_nothing_is_that_of_the_asymptotics) {
+  // Loose knots: a loop of the radius R = √(B/2T), so E → π√2 √(BT), and strands that touch along an interval flanked by two
+  // touches (Clauvelin, Audoly & Neukirch 2009). Their forces are σ B/R² √(R/r), and energies exceed the loop's by √(r/R) of it.
+  constexpr double pull = 0.5;
+  std::vector<double> roots, forces, energies;
+  for (const double radius : {0.05, 0.1}) {
+    const Outcome outcome = run_program(
+        {"solve", shipped_scene("overhand-knot"), "--json", "--set", "rod.radius=" + std::to_string(radius)});
+    BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    const nlohmann::json state = nlohmann::json::parse(outcome.out);
+    BOOST_TEST(state["end_force"].get<double>() == -pull, boost::test_tools::tolerance(1e-12));
+    const double loop = 1.0 / std::sqrt(2.0 * pull), root = std::sqrt(radius / loop);
+    roots.push_back(root);
+    forces.push_back(state["self_force"].get<double>() * loop * loop * root);
+    energies.push_back(state["energy"].get<double>() * loop / M_PI);
+    BOOST_TEST(state["self_distance"].get<double>() == 2.0 * radius, boost::test_tools::tolerance(1e-7));
+    // Of half the rod: a touch, the line, the touch's partner. Ends of the line are touches, too.
+    std::map<std::string, int> kinds;
+    for (const auto& touch : state["contact"]["self"]) ++kinds[touch["kind"]];
+    BOOST_TEST(kinds["touch"] > 0);
+    BOOST_TEST(kinds["line"] > 2);
+  }
+  const auto limit = [&](const std::vector<double>& v) {  // linear in √(r/R)
+    return v[0] - roots[0] * (v[1] - v[0]) / (roots[1] - roots[0]);
+  };
+  BOOST_TEST(limit(energies) == 1.0, boost::test_tools::tolerance(2e-3));
+  BOOST_TEST(limit(forces) == 0.49, boost::test_tools::tolerance(0.03));
+}
+
+BOOST_AUTO_TEST_CASE(overhand_knot_is_tightened_and_certified) {
+  // Its virial is that of the forces of its strands alone: 2r Σ F = H L − E − [n·r].
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      run_program({"continue", shipped_scene("overhand-knot"), "--set", "rod.radius=0.2", "--set",
+                   "continuation.to=-0.55", "--out", "run", "--quiet", "--no-eigenvalues"},
+                  folder.path());
+  BOOST_TEST(outcome.status == 0, outcome.err);
+  const Table table = read_csv(folder.path() / "run" / "branches.csv");
+  BOOST_TEST(std::stod(table.rows.back().at("end_force")) == -0.55);
+  BOOST_TEST(std::stod(table.rows.back().at("shortening")) < std::stod(table.rows.front().at("shortening")));
+  const Outcome certificate = run_program({"verify", "run"}, folder.path());
+  // Touches inside a line hold the rod a little along itself, which H knows of: all else holds.
+  std::istringstream lines(certificate.out);
+  int others = 0;
+  for (std::string line; std::getline(lines, line);)
+    others += contains(line, "FAILED") && !contains(line, "hamiltonian_drift");
+  BOOST_TEST(others == 0, certificate.out);
+  BOOST_TEST(contains(certificate.out, "integrated again"), certificate.out);
+}
+
+BOOST_AUTO_TEST_CASE(a_round_turn_is_the_coil) {
+  const TemporaryFolder folder;
+  std::ofstream file(folder.path() / "turns.csv");
+  file << "-2,-1.02,-0.47\n";
+  for (int k = -80; k <= 80; ++k) {
+    const double a = 2.0 * M_PI * k / 80.0;
+    file << 1.02 * std::sin(a) << ',' << -1.02 * std::cos(a) << ',' << 0.46 * k / 80.0 << '\n';
+  }
+  file << "2,-1.02,0.47\n";
+  file.close();
+  const auto force = [&](const std::vector<std::string>& knot) {
+    std::vector<std::string> command = {"solve", shipped_scene("half-knot"), "--json", "--set",
+                                        "load.tension=1"};
+    for (const std::string& setting : knot) command.insert(command.end(), {"--set", setting});
+    const Outcome outcome = run_program(command, folder.path());
+    BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    return nlohmann::json::parse(outcome.out)["R_tot"].get<double>();
+  };
+  BOOST_TEST(force({"knot.curve=turns.csv"}) == force({"knot.curve="}), boost::test_tools::tolerance(1e-9));
+}
+
+BOOST_AUTO_TEST_CASE(half_knot_is_tightened) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run_program({"continue", shipped_scene("half-knot"), "--set", "continuation.to=1",
+                                       "--out", "run", "--quiet", "--no-eigenvalues"},
+                                      folder.path());
+  BOOST_TEST(outcome.status == 0, outcome.err);
+  const Outcome certificate = run_program({"verify", "run"}, folder.path());
+  BOOST_TEST(certificate.status == 0, certificate.out);
+  const Table table = read_csv(folder.path() / "run" / "branches.csv");
+  for (const auto& row : table.rows) BOOST_TEST(contains(row.at("topology"), "cross"));  // it stays tied
+  BOOST_TEST(std::stod(table.rows.back().at("T")) == 1.0);
+}
+
+BOOST_AUTO_TEST_CASE(curves_that_no_knot_starts_on) {
+  const TemporaryFolder folder;
+  const auto says = [&](const std::string& points, const std::string& scene, const char* part) {
+    folder.write("curve.csv", points);
+    const Outcome outcome = run_program(
+        {"solve", shipped_scene(scene), "--set", "knot.kind=none", "--set", "knot.curve=curve.csv"},
+        folder.path());
+    BOOST_TEST(outcome.status != 0);
+    BOOST_TEST(contains(outcome.err, part), outcome.err);
+  };
+  says("x,y,z\n-1,0,0\n0,0,0\n1,0,0\n", "overhand-knot", "has 3 points; must have 9 or more");
+  says("x,y,z\n0,0,0\n1,0\n", "overhand-knot", "curve.csv:3: must be three numbers x, y, z");
+  const std::string loop =
+      slurp(std::filesystem::path(shipped_scene("overhand-knot")).replace_extension("csv"));
+  says(loop + "4,0.6,0.4\n5,0.6,0.4\n", "overhand-knot", "half-turn");
+  says(loop, "clove-hitch", "passes through the cylinder");
+  const auto run = [&](const std::vector<std::string>& settings, const char* scene = "overhand-knot") {
+    std::vector<std::string> command = {"solve", shipped_scene(scene)};
+    for (const std::string& setting : settings) command.insert(command.end(), {"--set", setting});
+    return run_program(command, folder.path());
+  };
+  for (const auto& [settings, part] :
+       {std::pair<std::vector<std::string>, const char*>{{"rod.length=3"}, "rod.length"},
+        {{"rod.radius=0.6"}, "penetrates itself"},
+        {{"load.thrust=0.5"}, "must be < 0"},
+        {{"ends.kind=clamped"}, "must be \"moment_free\""},
+        {{"rod.self_contact=false"}, "keeps off itself"},
+        {{"knot.kind=clove_hitch", "knot.curve="}, "needs a [cylinder]"}}) {
+    const Outcome refused = run(settings);
+    BOOST_TEST(refused.status == 1);
+    BOOST_TEST(contains(refused.err, part), refused.err);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_curve_that_is_no_knot_is_drawn_straight) {
+  // A bow, which touches nothing.
+  const TemporaryFolder folder;
+  std::ostringstream points;
+  points << "x,y,z\n";
+  for (int k = -40; k <= 40; ++k) {
+    const double x = 0.1 * k, bow = std::exp(-x * x);
+    points << x << ',' << bow << ',' << 0.3 * x * bow << '\n';
+  }
+  folder.write("bow.csv", points.str());
+  const Outcome outcome =
+      run_program({"solve", shipped_scene("overhand-knot"), "--set", "knot.curve=bow.csv"}, folder.path());
+  BOOST_TEST(outcome.status != 0);
+  BOOST_TEST(contains(outcome.err, "no equilibrium of the knot was found: its pulls draw the rod straight"),
+             outcome.err);
+}
+
+BOOST_AUTO_TEST_CASE(a_knot_that_falls_open_says_where) {
+  // Under a tension for which its tails are too short the hitch opens where a contact reaches its end: what was reached is told.
+  const TemporaryFolder folder;
+  const Outcome outcome = run_program({"solve", shipped_scene("clove-hitch"), "--set", "rod.radius=0.5",
+                                       "--set", "rod.length=37.5", "--set", "load.tension=0.05"},
+                                      folder.path());
+  BOOST_TEST(outcome.status != 0);
+  BOOST_TEST(contains(outcome.err, "the branch ends at 0.08389"), outcome.err);
+}
+
+BOOST_AUTO_TEST_CASE(a_slender_rod_stays_tied_while_it_is_relaxed) {
+  // Less thick than a step of the descent is long, it must not pass through itself: strands press on each other in the state found.
+  const Outcome outcome = run_program({"solve", shipped_scene("clove-hitch-nitinol-steel"), "--json", "--set",
+                                       "rod.radius=0.15 mm", "--set", "load.tension=30 g"});
+  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  const nlohmann::json state = nlohmann::json::parse(outcome.out);
+  BOOST_TEST(state["contact"]["self"].size() == 3U);
+  BOOST_TEST(state["self_force"].get<double>() > 0.1);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -16,7 +16,9 @@ struct LyingStretch {
 struct StrandTouch {
   double s = 0.0, other = 0.0;  ///< s <= other, both on this half [ρ]
   bool mirrored = false;        ///< the other strand is the half-turn's image of this half
-  bool own_image = false;       ///< and the place is its own partner
+  bool own_image =
+      false;          ///< and the place is its own partner; of a line all from s to `other` is its own image
+  bool line = false;  ///< pressed on all the way from one place to the other
 };
 
 /// A force on the rod at a place, one of those that make up the contact densities.
@@ -32,6 +34,11 @@ struct ThickContacts {
   double range = 0.0;            ///< over which bed and strands smear a point force [ρ]
 };
 
-ThickContacts contacts_of(const ThickRod& rod, const ThickMinimum& minimum);
+/// The same in a unit of length that is smaller by this factor.
+ThickContacts scaled(ThickContacts contacts, double factor);
+
+/// @param lines  is a stretch along which a strand is pressed on by its own image a line, or the hardest of it a touch? The smeared
+///               contact does not tell
+ThickContacts contacts_of(const ThickRod& rod, const ThickMinimum& minimum, bool lines = false);
 
 }  // namespace windlass::discrete_rod

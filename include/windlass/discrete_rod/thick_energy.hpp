@@ -9,9 +9,11 @@ namespace windlass::discrete_rod {
 
 /// Stiffnesses and multipliers of `ThickEnergy`.
 struct ThickPenalties {
-  double cylinder = 0.0;        ///< κ, force per penetration and length [EI/ρ⁴]
-  double strands = 0.0;         ///< the same, of a strand on another
-  double stretching = 0.0;      ///< EA [EI/ρ²]
+  double cylinder = 0.0;    ///< κ, force per penetration and length [EI/ρ⁴]
+  double strands = 0.0;     ///< the same, of a strand on another
+  double stretching = 0.0;  ///< EA [EI/ρ²]
+  double mid_point =
+      0.0;  ///< of a spring along e_y at s = 0, where nothing else holds the rod: it carries nothing [EI/ρ³]
   double strand_shift = 0.0;    ///< added to the distance 2r at which strands begin to push [ρ]
   std::vector<double> tension;  ///< multipliers of the elements' lengths [EI/ρ²]
 };
@@ -45,8 +47,10 @@ class ThickEnergy {
   double cylinder_force(const Vector& x) const;   ///< R_tot [EI/ρ²]
   double strand_force(const Vector& x) const;     ///< sum of the sizes of the forces between strands
   double strand_distance(const Vector& x) const;  ///< least one found; 2r + shift if no strand pushes
-  double stretch(const Vector& x) const;          ///< largest |l_e/h_e − 1|
-  void raise_tension(const Vector& x);            ///< N_e += EA (l_e/h_e − 1)
+  /// Do strands pass through each other on the straight way between two shapes? Taken to do so where that way is long.
+  bool strands_pass(const Vector& from, const Vector& to) const;
+  double stretch(const Vector& x) const;  ///< largest |l_e/h_e − 1|
+  void raise_tension(const Vector& x);    ///< N_e += EA (l_e/h_e − 1)
 
  private:
   struct Sum;
@@ -54,6 +58,7 @@ class ThickEnergy {
   void add_bending(const Vector& x, Sum& sum) const;
   void add_lengths(const Vector& x, Sum& sum) const;
   void add_end(const Vector& x, Sum& sum) const;
+  void add_mid_point(const Vector& x, Sum& sum) const;
   void add_cylinder(const Vector& x, Sum& sum) const;
   void add_strands(const Vector& x, Sum& sum) const;
   Sum evaluate(const Vector& x, bool derivatives) const;

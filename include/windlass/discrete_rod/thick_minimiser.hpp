@@ -8,7 +8,8 @@
 /// A second opinion on rods with a thickness, which shares no code with chain and contact.
 namespace windlass::discrete_rod {
 
-/// A rod round the cylinder, its ends free of moment under pulls T (±cos(φ/2), sin(φ/2), 0); dimensionless.
+/// A rod round the cylinder, or round nothing, its ends free of moment under pulls T (±cos(φ/2), sin(φ/2), 0); dimensionless.
+/// Without a cylinder φ = 0, and the unit of length is to be √(B/T) or so, that of the rod's loops.
 struct ThickRod {
   double tension = 1.0, angle = 0.0;
   double half_length = 0.0;
@@ -16,6 +17,7 @@ struct ThickRod {
   /// Corners of the curve it starts on, the half s >= 0 from the mid-point on, straight on beyond the last; empty: a helix.
   std::vector<SplineRod::Point> curve = {};
   double fine_length = 0.0;  ///< of fine elements, from the mid-point on [ρ]; 0: as the angle asks for
+  bool cylinder = true;      ///< else the rod is knotted round itself
 
   /// @throws std::invalid_argument naming the bound violated
   void validate() const;
@@ -28,6 +30,7 @@ struct ThickRod {
 /// Minimum of `ThickEnergy` on one mesh.
 struct ThickMinimum {
   bool converged = false;  ///< to a minimum: the Hessian is positive definite
+  bool open = false;       ///< at rest without a touch: the pulls have drawn it straight
   double h = 0.0;          ///< length of the elements near the coil [ρ]
   int unknowns = 0, iterations = 0;
   double R_tot = 0.0, self_force = 0.0;  ///< of the whole rod [EI/ρ²]

@@ -15,6 +15,8 @@ struct Statement {
   std::string why;  ///< of a difference
 };
 
+const char* name(Statement::Verdict verdict);
+
 struct Figure {
   std::string stem;    ///< of its files
   std::string title;   ///< what it shows and which figure of the paper it is

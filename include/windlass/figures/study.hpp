@@ -40,7 +40,13 @@ struct StudyRun {
   equilibrium::Solution stable_state(double tension) const;
   /// R_tot [EI/ρ²] and dlog R_tot/dlog T of that state.
   double stable_force(double tension) const;
-  double stable_log_slope(double tension) const;
+  double stable_log_slope(double tension) const { return log_slope_with_error(tension).value; }
+
+  struct LogSlope {
+    double value,
+        error;  ///< the error is that of the difference, from two steps: large beside a change of contact
+  };
+  LogSlope log_slope_with_error(double tension) const;
 };
 
 using Study = std::map<std::string, StudyRun>;

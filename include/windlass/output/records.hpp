@@ -44,8 +44,8 @@ struct BranchRow {
   std::optional<double> parameter;  ///< value of RunOptions::extra_parameter, where there is one
 };
 
-/// Of 2 rod.radius: strands that touch keep that distance, see carried_between_strands.
-inline constexpr double touching = 1.0 - 4e-9;
+/// Of 2 rod.radius: strands that touch keep that distance, of rods as slender as r = 0.01 ρ too; see carried_between_strands.
+inline constexpr double touching = 1.0 - 1e-7;
 
 /// Row of a solution: everything the solution knows; branch, point, label, type and ds are the caller's.
 BranchRow make_row(const equilibrium::Solution& solution, int branch, int point, std::string label,
