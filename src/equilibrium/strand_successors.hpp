@@ -40,10 +40,6 @@ std::optional<Successor> line_closes(const ContactEvent& event, const chain::Top
 std::optional<Successor> line_filled(const ContactEvent& event, const chain::Profile& profile,
                                      const chain::Topology& topology, Strip strip);
 
-/// A line that goes on to the next touch of the two strands: hardly anything parts its end from that. nullopt: it ends where it is.
-std::optional<Successor> line_goes_on(const ContactEvent& event, const chain::Profile& profile,
-                                      const chain::Topology& topology, const Strip& strip);
-
 /// Measures where touches inside lines between strands are, as parts of these, after their ends have changed.
 void measure_parts(Strip& strip);
 
