@@ -187,6 +187,46 @@ std::optional<Successor> line_closes(const ContactEvent& event, const Topology& 
   return strip.successor();
 }
 
+std::vector<Successor> line_passes_edge(int link, const chain::Profile& profile, const Topology& topology,
+                                        const Strip& strip) {
+  const Strands strands(topology);
+  const auto ends_line = [&](int joint) { return strip.on[joint].line != 0 && !strands.inside_line(joint); };
+  std::vector<Successor> out;
+  for (const auto& [end, edge] : {std::pair(link, link + 1), std::pair(link + 1, link)}) {
+    if (!ends_line(end) || strip.on[edge].strand != 0) continue;
+    const StrandLine& line = strands.lines()[strands.line_of(end)];
+    const int other = partner(strip, end);
+    const double way = edge < end ? -1.0 : 1.0;
+    for (const double length : {0.01, 0.005, 0.02}) {
+      const double s = strip.s[edge] + way * length * profile.unit_length;
+      const double met = foot(profile, s, strip.s[other] + (line.image ? -way : way) * length, line.image);
+      Strip longer = strip;
+      longer.on[end].part = longer.on[other].part = 0.5;
+      add_pair(longer, s, met, line.image, line.own_image(), {0, new_strand(strip), 0.0, strip.on[end].line});
+      out.push_back(with_touches(skeleton_of(longer).strip.successor(), profile, topology));
+    }
+  }
+  return out;
+}
+
+std::optional<Successor> line_extends(const ContactEvent& event, const Topology& topology, Strip strip) {
+  constexpr double beside = 0.25;  // of what is between the line and the next touch
+  const Strands strands(topology);
+  const Strands::Facing* f = strands.facing(event.place, event.other, event.mirrored);
+  if (!f || f->line >= 0) return std::nullopt;
+  const double length = strip.s[f->end] - strip.s[f->begin];
+  for (const int end : {f->begin, f->end}) {
+    const int line = strip.on[end].line;
+    if (line == 0 || std::abs(event.s - strip.s[end]) > beside * length) continue;
+    const bool own_image = strands.lines()[strands.line_of(end)].own_image();
+    strip.on[end].part = strip.on[partner(strip, end)].part = 0.5;
+    add_pair(strip, event.s, event.s_other, event.mirrored, own_image, {0, new_strand(strip), 0.0, line});
+    measure_parts(strip);
+    return strip.successor();
+  }
+  return std::nullopt;
+}
+
 std::optional<Successor> line_filled(const ContactEvent& event, const chain::Profile& profile,
                                      const Topology& topology, Strip strip) {
   const Strands strands(topology);

@@ -26,6 +26,7 @@ std::optional<Successor> strand_passes_edge(int link, Strip strip) {
   const int obstacle = strip.on[edge].obstacle;
   std::swap(strip.on[edge], strip.on[other]);
   strip.on[edge].obstacle = strip.on[other].obstacle = obstacle;
+  measure_parts(strip);
   return strip.successor();
 }
 
@@ -42,6 +43,7 @@ std::optional<Successor> touches_pass(int link, Strip strip) {
     std::swap(strip.on[link].obstacle, strip.on[link + 1].obstacle);
   }
   strip.parts[link].fresh = true;
+  measure_parts(strip);
   return strip.successor();
 }
 
@@ -147,9 +149,6 @@ std::vector<Successor> strands_meet(const ContactEvent& event, Strip strip) {
   return {strip.successor()};
 }
 
-namespace {
-
-/// Where along the other strand of a touch is nearest to a place along the first. @param guess  of it
 double foot(const chain::Profile& profile, double s, double guess, bool mirrored) {
   constexpr int iterations = 8;
   constexpr double step = 1e-3;
@@ -166,6 +165,8 @@ double foot(const chain::Profile& profile, double s, double guess, bool mirrored
   }
   return other;
 }
+
+namespace {
 
 /// A touch stays, and beside it the strands meet, too: where its curvature is lost and the next derivative of the distance is not.
 std::vector<Successor> strands_meet_beside(int j, const Strip& strip, const chain::Profile& profile) {

@@ -190,12 +190,20 @@ std::vector<Successor> after_skeleton(const ContactEvent& event, const Profile& 
                                       const Topology& topology, const Strip& strip) {
   const chain::Strands strands(topology);
   const auto follows = [&](int joint) { return strands.laid(joint) || !strands.inside_line(joint); };
+  const auto laid = [&](int joint) { return strands.laid(joint); };
   const Skeleton skeleton = skeleton_of(strip);
   ContactEvent here = event;
   const bool length = event.kind == Kind::length;
-  const bool alone = length && (!follows(event.place) || !follows(event.place + 1));
+  const bool alone =
+      length && ((!laid(event.place) && !laid(event.place + 1)) || !follows(event.place) || !follows(event.place + 1));
   if (alone || skeleton.strip.s.size() == strip.s.size())
-    return length ? after_length(event.place, strip) : strands_split(event, strip, profile);
+  {
+    if (!length) return strands_split(event, strip, profile);
+    std::vector<Successor> out = after_length(event.place, strip),
+                           longer = line_passes_edge(event.place, profile, topology, strip);
+    out.insert(out.begin(), longer.begin(), longer.end());
+    return out;
+  }
   here.place = (length ? skeleton.link : skeleton.joint)[event.place];
   std::vector<Successor> out =
       length ? after_length(here.place, skeleton.strip) : strands_split(here, skeleton.strip, profile);
@@ -250,6 +258,7 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
         const bool beside_line = next_to_line(event, topology);
         std::vector<Successor> out = strands_meet(event, strip);
         out.insert(beside_line ? out.begin() : out.end(), *closed);
+        if (const auto longer = line_extends(event, topology, strip)) out.insert(out.begin(), *longer);
         return out;
       }
       return strands_meet(event, strip);
