@@ -115,13 +115,19 @@ Square square(const Curve& curve, int e1, int e2, const Eigen::Vector2d& at) {
   return f;
 }
 
+/// Two places that touch, and how near to both nothing else counts.
+struct Touch {
+  Eigen::Vector2d at;
+  double reach;
+};
+
 class Search {
  public:
   Search(const Curve& curve, double least_separation) : curve_(curve), separation_(least_separation) {}
   /// @param cutoff  only what is nearer counts
   /// @param known   pairs of places that do not
   Search(const Curve& curve, double least_separation, double cutoff,
-         const std::vector<Eigen::Vector2d>& known)
+         const std::vector<Touch>& known)
       : curve_(curve), separation_(least_separation), cutoff_(cutoff), known_(known) {}
 
   /// Pairs within the elements a … b − 1.
@@ -247,24 +253,28 @@ class Search {
     // Where two neighbouring elements meet a place is at no distance from itself.
     const double itself = 1e-9 * (1.0 + f.at.cwiseAbs().maxCoeff());
     if (f.at(1) - f.at(0) <= std::max(separation_, itself) || (best_ && distance >= best_->distance)) return;
-    for (const Eigen::Vector2d& touch : known_)
-      if ((f.at - touch).cwiseAbs().maxCoeff() < same_touch) return;
+    for (const Touch& touch : known_)
+      if ((f.at - touch.at).cwiseAbs().maxCoeff() < touch.reach) return;
     best_ = SelfDistance{distance, f.at(0), f.at(1)};
   }
 
   static constexpr double coincident = 1e-12;  ///< nothing is nearer [ρ]
-  static constexpr double same_touch = 1e-2;  ///< two touches so close are told apart by their curvature [ρ]
 
   const Curve& curve_;
   double separation_, cutoff_ = HUGE_VAL;
-  std::vector<Eigen::Vector2d> known_;
+  std::vector<Touch> known_;
   std::optional<SelfDistance> best_;
 };
 
 /// Places of the touches between strands, of the whole rod: first place < second place.
-std::vector<Eigen::Vector2d> touches(const Profile& profile, const Topology& topology) {
-  std::vector<Eigen::Vector2d> out;
-  const auto add = [&](double a, double b) { out.emplace_back(std::min(a, b), std::max(a, b)); };
+std::vector<Touch> touches(const Profile& profile, const Topology& topology) {
+  // Two touches so close are told apart by their curvature; that of a line's end says nothing [ρ].
+  constexpr double same_touch = 1e-2, same_end = 2e-3;
+  std::vector<Touch> out;
+  const Strands strands(topology);
+  const auto add = [&](double a, double b, double reach) {
+    out.push_back({{std::min(a, b), std::max(a, b)}, reach});
+  };
   const auto place = [&](int joint) {
     return std::find_if(profile.contacts.begin(), profile.contacts.end(),
                         [&](const Contact& c) { return c.joint == joint; })
@@ -272,8 +282,10 @@ std::vector<Eigen::Vector2d> touches(const Profile& profile, const Topology& top
   };
   for (const Coupling& c : topology.couplings()) {
     const double a = place(c.first), b = c.mirrored ? -place(c.second) : place(c.second);
-    add(a, b);
-    if (topology.half) add(-a, -b);
+    const int line = strands.line_of(c.first);
+    const double reach = line >= 0 && !strands.lines()[line].on_obstacles ? same_end : same_touch;
+    add(a, b, reach);
+    if (topology.half) add(-a, -b, reach);
   }
   return out;
 }
@@ -287,13 +299,13 @@ std::vector<Approach> approaches(const Profile& profile, const Topology& topolog
   if (topology.half) image = chain::mirrored(profile);
   const Profile& whole = topology.half ? image : profile;
   const Curve curve(whole);
-  const std::vector<Eigen::Vector2d> known = touches(profile, topology);
+  const std::vector<Touch> known = touches(profile, topology);
   const double separation = M_PI * profile.radius;
   constexpr double as_far_again = 2.0;  // nobody asks how far strands are that are this far
   const double cutoff = 2.0 * profile.radius * (1.0 + as_far_again);
   const int links = static_cast<int>(profile.pieces.size()), first = topology.half ? links : 0;
   // Touches of a line are where they are laid, not where strands are nearest: right beside they may be nearer.
-  const std::vector<Eigen::Vector2d> none;
+  const std::vector<Touch> none;
   const auto least = [&](int i, int j, bool line) {  // of two pieces of the whole rod, i <= j
     Search search(curve, separation, cutoff, line ? none : known);
     if (i == j)

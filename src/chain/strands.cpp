@@ -29,7 +29,35 @@ Strands::Strands(const Topology& topology) {
     if (partner_[j] < 0) partner_[j] = j, mirrored_[j] = true;
   find_lines(topology);
   find_lines_on_obstacles(topology, touches);
+  find_laid();
   face(touches);
+}
+
+void Strands::find_laid() {
+  laid_.assign(partner_.size(), false);
+  const auto others = [&](int begin, int end) {  // joints between two, but for those inside lines
+    int count = 0;
+    for (int j = std::min(begin, end) + 1; j < std::max(begin, end); ++j) count += !inside_line(j);
+    return count;
+  };
+  for (const StrandLine& line : lines_) {
+    const int links = line.links(), low = links / 2, high = links - low;
+    const std::vector<int>&first = line.first, &second = line.second;
+    const int of_first = others(first.front(), line.own_image() ? first[low] : first.back()),
+              of_second = line.own_image() ? others(first[high], first.back())
+                                           : others(second.front(), second.back());
+    const bool by_first = of_first > of_second || (of_first == of_second && first.front() < second.front());
+    for (int i = 1; i < links; ++i) {
+      if (line.own_image() && 2 * i >= links) break;
+      laid_[by_first ? first[i] : second[i]] = true;
+    }
+  }
+}
+
+std::array<int, 2> Strands::located_about(int before, int after) const {
+  while (inside_line(before)) --before;
+  while (inside_line(after)) ++after;
+  return {before, after};
 }
 
 /// Lines that are marked as such (Seat::line): the second strand with the opposite number, unless it is the image of the first.
@@ -86,16 +114,23 @@ void Strands::face(const std::vector<int>& touches) {
         add({line.first[i], line.first[i + 1], low, high, line.image, l});
     }
   }
-  // Touches that are next to each other on either strand, and not both of one line.
-  const auto place = [&](int joint) {
-    return static_cast<int>(std::lower_bound(touches.begin(), touches.end(), joint) - touches.begin());
+  // Touches that are next to each other on either strand, and not both of one line; those with other strands do not count.
+  const auto within = [](int joint, int one, int other) {
+    return joint > std::min(one, other) && joint < std::max(one, other);
   };
   for (std::size_t k = 0; k + 1 < touches.size(); ++k) {
-    const int j = touches[k], next = touches[k + 1], a = partner_[j], b = partner_[next];
+    const int j = touches[k], a = partner_[j];
+    const auto follows = std::find_if(touches.begin() + static_cast<std::ptrdiff_t>(k) + 1, touches.end(), [&](int next) {
+      return mirrored_[next] == mirrored_[j] && (mirrored_[j] ? partner_[next] < a : partner_[next] > a);
+    });
+    if (follows == touches.end()) continue;
+    const int next = *follows, b = partner_[next];
     if (line_of_[j] >= 0 && line_of_[j] == line_of_[next]) continue;
-    if (mirrored_[j] != mirrored_[next] || place(b) != place(a) + (mirrored_[j] ? -1 : 1)) continue;
     if (std::min(a, b) < j) continue;  // found from the other strand
-    add({j, next, std::min(a, b), std::max(a, b), mirrored_[j], -1});
+    const bool parted = std::any_of(touches.begin(), touches.end(), [&](int t) {
+      return within(t, j, next) && within(partner_[t], a, b);
+    });
+    if (!parted) add({j, next, std::min(a, b), std::max(a, b), mirrored_[j], -1});
   }
 }
 

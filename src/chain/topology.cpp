@@ -232,14 +232,11 @@ std::vector<Coupling> Topology::couplings() const {
     const int other = strands.partner(j);
     if (other < j) continue;
     Coupling c{j, other, other == j || on[other].strand != on[j].strand};
-    const int line = strands.line_of(j);
-    c.along = line >= 0;
-    if (strands.inside_line(j) && !c.with_itself()) {
-      const StrandLine& all = strands.lines()[line];
-      const bool of_first = std::find(all.first.begin(), all.first.end(), j) != all.first.end();
-      const std::vector<int>& strand = of_first ? all.first : all.second;
-      c.begin = std::min(strand.front(), strand.back()), c.end = std::max(strand.front(), strand.back());
-      c.part = on[j].part;
+    c.along = strands.line_of(j) >= 0;
+    if (strands.laid(other)) std::swap(c.first, c.second);
+    if (strands.laid(c.first)) {
+      const auto [begin, end] = strands.between(c.first);
+      c.begin = begin, c.end = end, c.part = on[c.first].part;
     }
     out.push_back(c);
   }

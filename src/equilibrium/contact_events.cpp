@@ -208,6 +208,7 @@ ContactEvent length_event(const Profile& profile, const Topology& topology, cons
                           int i) {
   if (const int line = line_of_several(strands, i); line >= 0)
     return spare_touches(profile, strands, i, line);
+  if (const auto between = laid_between(profile, strands, i)) return *between;
   const bool begins_at_mid = topology.half && i == 0 && !topology.mid_touch;
   const Piece& piece = profile.pieces[i];
   const bool gap = piece.stretch == Stretch::gap;
@@ -271,6 +272,10 @@ std::vector<ContactEvent> approach_events(const Profile& profile, const Topology
       event.value = 1.0 + std::min(event.value, 0.0) / carried_between_strands;
       event.redrawn = true;
     }
+    if (const auto* faced = strands.facing(near.link, near.other, near.mirrored);
+        faced && faced->line < 0 &&
+        (strands.line_of(faced->begin) >= 0 || strands.line_of(faced->end) >= 0))
+      event.value += carried_between_strands;  // as in the line beside it
     const auto same = std::find_if(events.begin(), events.end(), [&](const ContactEvent& other) {
       return other.named == event.named && other.named_other == event.named_other &&
              other.mirrored == event.mirrored;

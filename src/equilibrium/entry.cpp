@@ -66,6 +66,7 @@ const ContactEvent* most_violated(const std::vector<ContactEvent>& events, doubl
 bool mend(Entry& at, int most, bool redrawn, int& iterations) {
   constexpr int most_laid = 8;
   int laid = 0;
+  bool pulled = false;
   for (int k = 0; k < most; ++k) {
     const chain::Profile shape = at.problem->profile(at.x, at.p);
     const Topology& topology = at.problem->topology();
@@ -77,8 +78,10 @@ bool mend(Entry& at, int most, bool redrawn, int& iterations) {
     // Laid anew again and again, where a line is open inside, what is too near is filled.
     if (violated->kind == ContactEvent::Kind::approach && violated->redrawn && ++laid > most_laid)
       all.erase(all.begin(), all.end() - 1);
-    if (violated->kind == ContactEvent::Kind::force && violated->redrawn)
-      std::reverse(all.begin(), all.end());
+    // A touch that pulls after that, too, does so for what is between the strands.
+    const bool pulls = violated->kind == ContactEvent::Kind::force && violated->redrawn;
+    if (pulls && pulled && all.size() > 1) all.erase(all.begin());
+    pulled |= pulls;
     bool found = false;
     for (Successor& next : all) {
       std::sort(next.s.begin(), next.s.end());  // what has changed places

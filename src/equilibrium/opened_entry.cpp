@@ -91,7 +91,7 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, i
   };
   if (!in_place && !solve()) return std::nullopt;
   // What is admissible is judged on a mesh that is fine enough: events that only a finer one shows would be passed unseen.
-  if (const std::optional<Vector> finer = entry.problem->adapt(entry.x, entry.p)) {
+  if (const std::optional<Vector> finer = entry.problem->adapt_mesh(entry.x, entry.p)) {
     entry.x = *finer;
     if (!solve()) return std::nullopt;
   }

@@ -5,6 +5,10 @@
 #include <tuple>
 #include <utility>
 
+#include "entry.hpp"
+#include "line_touches.hpp"
+#include "strand_line_events.hpp"
+#include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/equilibrium/rod_problem.hpp"
 
 namespace windlass::equilibrium {
@@ -203,11 +207,37 @@ std::optional<Vector> RodProblem::moved_to(std::vector<chain::ArcMesh> meshes, c
 }
 
 std::optional<Vector> RodProblem::adapt(const Vector& x, const Vector& p) {
+  std::optional<Vector> moved = laid_where_needed(x, p);
+  if (auto adapted = adapt_mesh(moved.value_or(x), p)) moved = std::move(adapted);
+  return moved;
+}
+
+std::optional<Vector> RodProblem::adapt_mesh(const Vector& x, const Vector& p) {
   std::optional<Vector> moved = remeshed_where_needed(x, p);
   // Other equations for the same state: its tangent is another, too.
   if (choose_sliding(moved.value_or(x), p) && !moved) moved = x;
   if (moved) settle(*moved, p);
   return moved;
+}
+
+std::optional<Vector> RodProblem::laid_where_needed(const Vector& x, const Vector& p) {
+  constexpr double few = 0.6, many = 0.03;  // of what is carried, at the place where strands are nearest
+  const chain::Profile shape = profile(x, p);
+  double nearer = nearer_between_touches(shape, topology_) / carried_between_strands;
+  if (nearer < 0.0) return std::nullopt;
+  for (const ContactEvent& event : contact_events(shape, topology_))
+    if (event.kind == ContactEvent::Kind::approach && event.redrawn)
+      nearer = std::max(nearer, 1.0 - event.value);
+  if (nearer > many && nearer < few) return std::nullopt;
+  const Strip strip(topology_, joint_places(x, p, shape));
+  const Successor next = with_touches(skeleton_of(strip).strip.successor(), shape, topology_);
+  if (nearer < many && next.s.size() >= strip.s.size()) return std::nullopt;
+  Entry laid = draft(*this, next, shape, p);
+  if (laid.problem->polish(laid.x, p) < 0) return std::nullopt;
+  topology_ = laid.problem->topology();
+  meshes_ = laid.problem->meshes();
+  rebuild();
+  return laid.x;
 }
 
 std::optional<Vector> RodProblem::remeshed_where_needed(const Vector& x, const Vector& p) {

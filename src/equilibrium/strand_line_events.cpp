@@ -29,6 +29,15 @@ double nearer_between(const Profile& profile, const chain::Strands& strands, int
 
 }  // namespace
 
+double nearer_between_touches(const Profile& profile, const chain::Topology& topology) {
+  const chain::Strands strands(topology);
+  double most = -1.0;
+  for (int l = 0; l < static_cast<int>(strands.lines().size()); ++l)
+    if (const chain::StrandLine& line = strands.lines()[l]; !line.on_obstacles && line.links() > 1)
+      most = std::max(most, nearer_between(profile, strands, l));
+  return most;
+}
+
 int line_of_several(const chain::Strands& strands, int link) {
   const int line = strands.line_of(link);
   return line >= 0 && line == strands.line_of(link + 1) && strands.lines()[line].links() > 1 ? line : -1;
@@ -41,6 +50,19 @@ ContactEvent spare_touches(const Profile& profile, const chain::Strands& strands
   if (i == all.first.front() || i == std::min(all.second.front(), all.second.back()))
     event.value =
         nearer_between(profile, strands, line) / (spare_between_strands * carried_between_strands) - 1.0;
+  return event;
+}
+
+std::optional<ContactEvent> laid_between(const Profile& profile, const chain::Strands& strands, int link) {
+  if (!strands.laid(link) && !strands.laid(link + 1)) return std::nullopt;
+  const auto keeps = [&](int joint) { return strands.laid(joint) || !strands.inside_line(joint); };
+  if (!keeps(link) || !keeps(link + 1)) return std::nullopt;  // located by tangency: it may meet the other
+  const auto [begin, end] = strands.located_about(link, link + 1);
+  ContactEvent event{ContactEvent::Kind::length, link, 1.0, profile.pieces[link].s(0)};
+  const int named = line_of_several(strands, end - 1) < 0 ? end - 1 : begin;
+  if (link == named)
+    event.value = profile.pieces[end].s(0) - profile.pieces[begin].s(0) -
+                  least_beside_strand * profile.unit_length;
   return event;
 }
 

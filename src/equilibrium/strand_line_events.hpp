@@ -12,6 +12,15 @@ int line_of_several(const chain::Strands& strands, int link);
 /// A line between strands needs its touches, or has more than it needs.
 ContactEvent spare_touches(const chain::Profile& profile, const chain::Strands& strands, int link, int line);
 
+/// How much nearer strands are between the touches inside lines of theirs, by the pressure that these stand for; −1: there are none
+/// between free strands.
+double nearer_between_touches(const chain::Profile& profile, const chain::Topology& topology);
+
+/// What is between two joints that no line has inside it, and touches are laid in, as one length: they keep their parts of it.
+/// nullopt: no such touch is at the link.
+std::optional<ContactEvent> laid_between(const chain::Profile& profile, const chain::Strands& strands,
+                                         int link);
+
 /// Of a line between strands the touches inside may pull, as its pressure changes its sign, with what would open the strands by
 /// no more than they may be nearer elsewhere: a force F lifts both over the span h of its neighbours by Fh³/12B.
 double carried_pull(const chain::Profile& profile, const chain::Strands& strands, int joint);

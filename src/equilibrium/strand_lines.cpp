@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "line_touches.hpp"
 #include "strand_successors.hpp"
 #include "windlass/chain/self_distance.hpp"
 
@@ -146,13 +147,8 @@ void measure_parts(Strip& strip) {
   for (int j = 0; j < count; ++j) {
     if (strip.on[j].part == 0.0) continue;
     int begin = j, end = j;
-    if (const int line = strip.on[j].line; line != 0) {
-      for (int k = 0; k < count; ++k)
-        if (strip.on[k].line == line) begin = std::min(begin, k), end = std::max(end, k);
-    } else {
-      while (begin > 0 && strip.on[begin].part > 0.0) --begin;
-      while (end + 1 < count && strip.on[end].part > 0.0) ++end;
-    }
+    while (begin > 0 && strip.on[begin].part > 0.0) --begin;
+    while (end + 1 < count && strip.on[end].part > 0.0) ++end;
     strip.on[j].part = (strip.s[j] - strip.s[begin]) / (strip.s[end] - strip.s[begin]);
   }
 }
@@ -191,6 +187,46 @@ std::optional<Successor> line_closes(const ContactEvent& event, const Topology& 
   return strip.successor();
 }
 
+std::vector<Successor> line_passes_edge(int link, const chain::Profile& profile, const Topology& topology,
+                                        const Strip& strip) {
+  const Strands strands(topology);
+  const auto ends_line = [&](int joint) { return strip.on[joint].line != 0 && !strands.inside_line(joint); };
+  std::vector<Successor> out;
+  for (const auto& [end, edge] : {std::pair(link, link + 1), std::pair(link + 1, link)}) {
+    if (!ends_line(end) || strip.on[edge].strand != 0) continue;
+    const StrandLine& line = strands.lines()[strands.line_of(end)];
+    const int other = partner(strip, end);
+    const double way = edge < end ? -1.0 : 1.0;
+    for (const double length : {0.01, 0.005, 0.02}) {
+      const double s = strip.s[edge] + way * length * profile.unit_length;
+      const double met = foot(profile, s, strip.s[other] + (line.image ? -way : way) * length, line.image);
+      Strip longer = strip;
+      longer.on[end].part = longer.on[other].part = 0.5;
+      add_pair(longer, s, met, line.image, line.own_image(), {0, new_strand(strip), 0.0, strip.on[end].line});
+      out.push_back(with_touches(skeleton_of(longer).strip.successor(), profile, topology));
+    }
+  }
+  return out;
+}
+
+std::optional<Successor> line_extends(const ContactEvent& event, const Topology& topology, Strip strip) {
+  constexpr double beside = 0.25;  // of what is between the line and the next touch
+  const Strands strands(topology);
+  const Strands::Facing* f = strands.facing(event.place, event.other, event.mirrored);
+  if (!f || f->line >= 0) return std::nullopt;
+  const double length = strip.s[f->end] - strip.s[f->begin];
+  for (const int end : {f->begin, f->end}) {
+    const int line = strip.on[end].line;
+    if (line == 0 || std::abs(event.s - strip.s[end]) > beside * length) continue;
+    const bool own_image = strands.lines()[strands.line_of(end)].own_image();
+    strip.on[end].part = strip.on[partner(strip, end)].part = 0.5;
+    add_pair(strip, event.s, event.s_other, event.mirrored, own_image, {0, new_strand(strip), 0.0, line});
+    measure_parts(strip);
+    return strip.successor();
+  }
+  return std::nullopt;
+}
+
 std::optional<Successor> line_filled(const ContactEvent& event, const chain::Profile& profile,
                                      const Topology& topology, Strip strip) {
   const Strands strands(topology);
@@ -211,21 +247,16 @@ std::optional<Successor> line_filled(const ContactEvent& event, const chain::Pro
 
 namespace {
 
-/// Does a line end without a force of its own, next to another touch of the two strands? Then hardly anything parts it from that.
-/// @returns what is between; nullptr: it does not
-const Strands::Facing* soft_end(const chain::Profile& profile, const Strands& strands, int line) {
-  const std::vector<int>& touches = strands.lines()[line].first;
-  if (touches.size() < 3) return nullptr;
-  const auto beyond = [&](int end, int next, int link) -> const Strands::Facing* {
-    if (force_at(profile, end) > 2.0 * force_at(profile, next)) return nullptr;
-    for (const Strands::Facing& f : strands.facing(link))
-      if (f.line < 0 && (f.begin == end || f.end == end)) return &f;
-    return nullptr;
-  };
-  const std::size_t last = touches.size() - 1;
-  if (touches.front() > 0)
-    if (const Strands::Facing* f = beyond(touches.front(), touches[1], touches.front() - 1)) return f;
-  return beyond(touches.back(), touches[last - 1], touches.back());
+/// The same strip with the touches of its lines laid anew, more of them than there are.
+Successor with_more_touches(const chain::Profile& profile, const Topology& topology, const Strip& strip) {
+  constexpr double more = 1.1;
+  constexpr int most = 20;
+  const Successor skeleton = skeleton_of(strip).strip.successor();
+  Successor out;
+  double finer = 1.0;
+  for (int k = 0; k < most && out.s.size() <= strip.s.size(); ++k, finer *= more)
+    out = with_touches(skeleton, profile, topology, finer);
+  return out;
 }
 
 Successor with_more_touches(const chain::Profile& profile, const StrandLine& line, const Strip& strip) {
@@ -237,20 +268,6 @@ Successor with_more_touches(const chain::Profile& profile, const StrandLine& lin
 }
 
 }  // namespace
-
-std::optional<Successor> line_goes_on(const ContactEvent& event, const chain::Profile& profile,
-                                      const Topology& topology, const Strip& strip) {
-  const Strands strands(topology);
-  const Strands::Facing* here = strands.facing(event.place, event.other, event.mirrored);
-  const Strands::Facing* gap = here && here->line >= 0 ? soft_end(profile, strands, here->line) : nullptr;
-  if (!gap) return std::nullopt;
-  Strip united = strip;
-  unite(*gap, united);
-  measure_parts(united);
-  const Strands marked(united.successor().topology);
-  if (marked.line_of(gap->begin) < 0) return std::nullopt;
-  return with_more_touches(profile, marked.lines()[marked.line_of(gap->begin)], united);
-}
 
 std::optional<Successor> line_opens(int joint, const Topology& topology, Strip strip) {
   const Strands strands(topology);
@@ -289,6 +306,7 @@ std::optional<Successor> line_with_fewer_touches(const chain::Profile& profile, 
   if (which < 0 || which != strands.line_of(link + 1)) return std::nullopt;
   const StrandLine& line = strands.lines()[which];
   if (line.links() < 2) return std::nullopt;
+  if (!line.on_obstacles) return with_touches(skeleton_of(strip).strip.successor(), profile, topology);
   const Monitor monitor = monitor_of(profile, line, strip);
   return laid_anew(line, strip, monitor,
                    std::clamp(static_cast<int>(std::ceil(monitor.links)), 1, line.links() - 1));
@@ -299,7 +317,9 @@ std::optional<Successor> line_with_more_touches(const ContactEvent& event, const
   const Strands strands(topology);
   const Strands::Facing* here = strands.facing(event.place, event.other, event.mirrored);
   if (!here || here->line < 0) return std::nullopt;
-  return with_more_touches(profile, strands.lines()[here->line], strip);
+  const StrandLine& line = strands.lines()[here->line];
+  return line.on_obstacles ? with_more_touches(profile, line, strip)
+                           : with_more_touches(profile, topology, strip);
 }
 
 }  // namespace windlass::equilibrium

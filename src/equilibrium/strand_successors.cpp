@@ -26,6 +26,7 @@ std::optional<Successor> strand_passes_edge(int link, Strip strip) {
   const int obstacle = strip.on[edge].obstacle;
   std::swap(strip.on[edge], strip.on[other]);
   strip.on[edge].obstacle = strip.on[other].obstacle = obstacle;
+  measure_parts(strip);
   return strip.successor();
 }
 
@@ -42,6 +43,7 @@ std::optional<Successor> touches_pass(int link, Strip strip) {
     std::swap(strip.on[link].obstacle, strip.on[link + 1].obstacle);
   }
   strip.parts[link].fresh = true;
+  measure_parts(strip);
   return strip.successor();
 }
 
@@ -147,6 +149,48 @@ std::vector<Successor> strands_meet(const ContactEvent& event, Strip strip) {
   return {strip.successor()};
 }
 
+double foot(const chain::Profile& profile, double s, double guess, bool mirrored) {
+  constexpr int iterations = 8;
+  constexpr double step = 1e-3;
+  const Eigen::Vector3d at = profile.at(s).r, turn(mirrored ? -1.0 : 1.0, 1.0, mirrored ? -1.0 : 1.0);
+  const auto distance = [&](double other) {
+    return (at - turn.cwiseProduct(profile.at(other).r)).squaredNorm();
+  };
+  double other = guess;
+  for (int k = 0; k < iterations; ++k) {
+    const double low = distance(other - step), here = distance(other), high = distance(other + step);
+    const double bend = high - 2.0 * here + low;
+    if (bend <= 0.0) break;
+    other -= std::clamp(0.5 * step * (high - low) / bend, -10.0 * step, 10.0 * step);
+  }
+  return other;
+}
+
+namespace {
+
+/// A touch stays, and beside it the strands meet, too: where its curvature is lost and the next derivative of the distance is not.
+std::vector<Successor> strands_meet_beside(int j, const Strip& strip, const chain::Profile& profile) {
+  const int other = partner(strip, j);
+  const bool mirrored = strip.on[j].strand != strip.on[other].strand;
+  const double unit = profile.unit_length;
+  std::vector<Successor> out;
+  for (const double length : {0.02, 0.01, 0.04, 0.005})
+    for (const double side : {1.0, -1.0}) {
+      const double s = strip.s[j] + side * length * unit;
+      const double met = foot(profile, s, strip.s[other], mirrored);
+      Strip next = strip;
+      add_pair(next, s, met, mirrored, false, {0, new_strand(strip)});
+      for (const auto& [one, two] : {std::pair(s, strip.s[j]), std::pair(met, strip.s[other])}) {
+        auto& part = next.parts[next.part_at(0.5 * (one + two))];
+        part.fresh = true;
+      }
+      out.push_back(next.successor());
+    }
+  return out;
+}
+
+}  // namespace
+
 std::vector<Successor> strands_split(const ContactEvent& event, const Strip& strip,
                                      const chain::Profile& profile) {
   const int j = event.place, other = partner(strip, j);
@@ -185,6 +229,10 @@ std::vector<Successor> strands_split(const ContactEvent& event, const Strip& str
         out.push_back(split.successor());
       }
     }
+  if (j != other) {
+    const std::vector<Successor> beside = strands_meet_beside(j, strip, profile);
+    out.insert(out.end(), beside.begin(), beside.end());
+  }
   return out;
 }
 

@@ -20,6 +20,13 @@ void add_touch(Strip& strip, double at, const chain::Seat& seat);
 /// @param seat        of the first place; the second's has the opposite marks that these ask for (chain::Seat)
 void add_pair(Strip& strip, double s, double other, bool mirrored, bool own_strand, chain::Seat seat);
 
+/// Where along the other strand of a touch is nearest to a place along the first. @param guess  of it
+double foot(const chain::Profile& profile, double s, double guess, bool mirrored);
+
+/// The end of a line between strands has reached the edge of a line on an obstacle: it goes on beyond that. nullopt: another link.
+std::vector<Successor> line_passes_edge(int link, const chain::Profile& profile, const chain::Topology& topology,
+                                        const Strip& strip);
+
 /// Takes out a touch between strands: at each place the arcs beside it become one.
 void take_out(int j, Strip& strip);
 
@@ -36,13 +43,12 @@ bool next_to_line(const ContactEvent& event, const chain::Topology& topology);
 /// Two strands that meet between two touches of theirs, or ends of lines, all of which are of one line now. nullopt: elsewhere.
 std::optional<Successor> line_closes(const ContactEvent& event, const chain::Topology& topology, Strip strip);
 
+/// Two strands that meet right beside the end of a line of theirs, which ends there now. nullopt: elsewhere.
+std::optional<Successor> line_extends(const ContactEvent& event, const chain::Topology& topology, Strip strip);
+
 /// A line whose touches are not enough, with more of them where the strands are too near; nullopt: the link is in none.
 std::optional<Successor> line_filled(const ContactEvent& event, const chain::Profile& profile,
                                      const chain::Topology& topology, Strip strip);
-
-/// A line that goes on to the next touch of the two strands: hardly anything parts its end from that. nullopt: it ends where it is.
-std::optional<Successor> line_goes_on(const ContactEvent& event, const chain::Profile& profile,
-                                      const chain::Topology& topology, const Strip& strip);
 
 /// Measures where touches inside lines between strands are, as parts of these, after their ends have changed.
 void measure_parts(Strip& strip);

@@ -12,6 +12,11 @@ Strip::Strip(const chain::Topology& topology, const std::vector<double>& places)
   for (const Stretch kind : topology.stretches) parts.push_back({kind, static_cast<int>(parts.size())});
 }
 
+Strip::Strip(const Successor& next) : Strip(next.topology, next.s) {
+  for (std::size_t i = 0; i < parts.size(); ++i) parts[i].source = next.source[i];
+  for (const int link : next.opened) parts[link].fresh = true;
+}
+
 Successor Strip::successor() const {
   Successor out;
   out.s = s;

@@ -20,6 +20,7 @@ struct Strip {
   bool half = true, mid_touch = false;  ///< see chain::Topology
 
   Strip(const chain::Topology& topology, const std::vector<double>& places);
+  explicit Strip(const Successor& next);
   Successor successor() const;
 
   /// Is there such a part, and is it a line?

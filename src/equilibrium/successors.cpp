@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "line_touches.hpp"
 #include "strand_successors.hpp"
 #include "strip.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
@@ -184,6 +185,33 @@ Successor bowed(int link, Strip strip) {
   return next;
 }
 
+/// What follows where an arc has no length left, or a touch of strands comes apart. Joints that locate themselves meet and part; the
+/// touches inside lines follow them.
+std::vector<Successor> after_skeleton(const ContactEvent& event, const Profile& profile,
+                                      const Topology& topology, const Strip& strip) {
+  const chain::Strands strands(topology);
+  const auto follows = [&](int joint) { return strands.laid(joint) || !strands.inside_line(joint); };
+  const auto laid = [&](int joint) { return strands.laid(joint); };
+  const Skeleton skeleton = skeleton_of(strip);
+  ContactEvent here = event;
+  const bool length = event.kind == Kind::length;
+  const bool alone =
+      length && ((!laid(event.place) && !laid(event.place + 1)) || !follows(event.place) || !follows(event.place + 1));
+  if (alone || skeleton.strip.s.size() == strip.s.size())
+  {
+    if (!length) return strands_split(event, strip, profile);
+    std::vector<Successor> out = after_length(event.place, strip),
+                           longer = line_passes_edge(event.place, profile, topology, strip);
+    out.insert(out.begin(), longer.begin(), longer.end());
+    return out;
+  }
+  here.place = (length ? skeleton.link : skeleton.joint)[event.place];
+  std::vector<Successor> out =
+      length ? after_length(here.place, skeleton.strip) : strands_split(here, skeleton.strip, profile);
+  for (Successor& next : out) next = with_touches(next, profile, topology);
+  return out;
+}
+
 /// Candidates for what follows the event, the other half of a symmetric full chain left as it is.
 std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profile, const Topology& topology,
                                  const std::vector<double>& s) {
@@ -197,20 +225,22 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
     case Kind::length:
       if (profile.pieces[event.place].stretch == Stretch::tail) return {end_of_rod(strip)};
       if (const auto fewer = line_with_fewer_touches(profile, topology, event.place, strip)) return {*fewer};
-      return after_length(event.place, strip);
+      return after_skeleton(event, profile, topology, strip);
     case Kind::force:
       for (const int link : {event.place - 1, event.place})
         if (vanishes(strip, link)) return after_length(link, strip);
       if (const auto opened = line_opens(event.place, topology, strip)) {
         std::vector<Successor> out = {*opened}, parted = strands_part(event.place, strip);
         out.insert(out.end(), parted.begin(), parted.end());
+        if (event.redrawn)  // laid unevenly touches pull, too
+          out.insert(out.begin(), with_touches(skeleton_of(strip).strip.successor(), profile, topology));
         return out;
       }
       if (strip.on[event.place].strand != 0) return strands_part(event.place, strip);
       return after_force(event, strip, profile, topology);
     case Kind::curvature:
       if (const auto line = line_with_next(event.place, profile, topology, strip)) return {*line};
-      if (strip.on[event.place].strand != 0) return strands_split(event, strip, profile);
+      if (strip.on[event.place].strand != 0) return after_skeleton(event, profile, topology, strip);
       return after_curvature(event, strip, profile);
     case Kind::graze:
       return after_graze(event, strip);
@@ -220,17 +250,16 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
       return strand_lifts(event.place, strip);
     case Kind::approach:
       if (event.redrawn) {
-        std::vector<Successor> out;
-        if (const auto longer = line_goes_on(event, profile, topology, strip)) out.push_back(*longer);
-        out.push_back(*line_with_more_touches(event, profile, topology, strip));
-        out.push_back(*line_filled(event, profile, topology, strip));
-        return out;
+        return {*line_with_more_touches(event, profile, topology, strip),
+                *line_filled(event, profile, topology, strip)};
       }
-      if (const auto closed = line_closes(event, topology, strip)) {
+      if (auto closed = line_closes(event, topology, strip)) {
+        closed = with_touches(skeleton_of(Strip(*closed)).strip.successor(), profile, topology);
         // Beside a line hardly anything parts it from what comes next; between two touches a third is one by itself at first.
         const bool beside_line = next_to_line(event, topology);
         std::vector<Successor> out = strands_meet(event, strip);
         out.insert(beside_line ? out.begin() : out.end(), *closed);
+        if (const auto longer = line_extends(event, topology, strip)) out.insert(out.begin(), *longer);
         return out;
       }
       return strands_meet(event, strip);

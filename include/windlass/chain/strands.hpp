@@ -32,6 +32,12 @@ class Strands {
   bool inside_line(int joint) const;
   /// The touches before and after one that is inside a line, along its strand.
   std::array<int, 2> neighbours(int joint) const;
+  /// Is it one that is laid at a fixed part of what is between two joints (chain/coupling.hpp)? On its other strand tangency locates
+  /// it. Of a line's two strands, or halves, that one is divided on which more joints of other contacts are.
+  bool laid(int joint) const { return joint >= 0 && laid_[joint]; }
+  /// The next joints before and after a touch inside a line, or a link, that are inside none.
+  std::array<int, 2> between(int joint) const { return located_about(joint - 1, joint + 1); }
+  std::array<int, 2> located_about(int before, int after) const;
 
   /// Two stretches of rod, [begin, end] and [other_begin, other_end] as joints, that face each other between the same two touches:
   /// of a line, or else next to each other on either strand. It may be its own image.
@@ -52,11 +58,12 @@ class Strands {
  private:
   void find_lines(const Topology& topology);
   void find_lines_on_obstacles(const Topology& topology, const std::vector<int>& touches);
+  void find_laid();
   void add(const Facing& facing);
   void face(const std::vector<int>& touches);
 
   std::vector<int> partner_, line_of_;
-  std::vector<bool> mirrored_;
+  std::vector<bool> mirrored_, laid_;
   std::vector<StrandLine> lines_;
   std::vector<std::vector<Facing>> facing_;
 };

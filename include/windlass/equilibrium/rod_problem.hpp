@@ -65,7 +65,9 @@ class RodProblem final : public continuation::Problem {
   std::vector<continuation::EventFunction> events(const Vector& x, const Vector& p) override;
   std::optional<continuation::Transition> transition(std::size_t which, const Vector& x,
                                                      const Vector& p) override;
+  /// Lays touches inside lines between strands anew where they are too few, and adapts the mesh.
   std::optional<Vector> adapt(const Vector& x, const Vector& p) override;
+  std::optional<Vector> adapt_mesh(const Vector& x, const Vector& p);
   Vector fingerprint(const Vector& x, const Vector& p) override;
   continuation::BorderedNewton* newton() override { return &newton_; }
   std::shared_ptr<continuation::Problem> clone() const override;
@@ -160,6 +162,9 @@ class RodProblem final : public continuation::Problem {
   /// The state on `meshes`, which replace the present ones; nullopt, and nothing is changed, where Newton fails or,
   /// with `within`, the errors there are too large.
   std::optional<Vector> remeshed_where_needed(const Vector& x, const Vector& p);
+  /// The state with the touches inside its lines between strands laid anew, where they are too few or far too many; nullopt, and nothing
+  /// is changed, where they are not, or Newton fails.
+  std::optional<Vector> laid_where_needed(const Vector& x, const Vector& p);
   std::optional<Vector> moved_to(std::vector<chain::ArcMesh> meshes, const Vector& x, const Vector& p,
                                  bool within);
 

@@ -1,0 +1,228 @@
+#include "line_touches.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "strand_successors.hpp"
+
+namespace windlass::equilibrium {
+
+using chain::StrandLine;
+using chain::Strands;
+
+namespace {
+
+/// What is known of a line between two strands: of places along one of them those of the other and the pressure.
+struct Touched {
+  double s, other, pressure;  ///< pressure NaN: unknown
+  bool mirrored;
+};
+
+std::vector<Touched> touched_by(const chain::Profile& profile, const chain::Topology& topology) {
+  const Strands strands(topology);
+  std::vector<Touched> out;
+  const auto place = [&](int joint) { return profile.pieces[joint].s(0); };
+  for (const chain::Contact& c : profile.contacts) {
+    const int joint = c.joint;
+    if (c.coupling < 0 || strands.line_of(joint) < 0) continue;
+    double pressure = NAN;
+    if (strands.inside_line(joint)) {
+      const auto [before, after] = strands.neighbours(joint);
+      pressure = std::max(c.force, 0.0) / (0.5 * (place(after) - place(before)));
+    }
+    const int other = strands.partner(joint);
+    const bool mirrored = topology.seat(joint).strand != topology.seat(other).strand || other == joint;
+    out.push_back({place(joint), place(other), pressure, mirrored});
+  }
+  std::sort(out.begin(), out.end(), [](const Touched& a, const Touched& b) { return a.s < b.s; });
+  return out;
+}
+
+/// A line as a function of the place along the strand that is divided.
+class Course {
+ public:
+  Course(const std::vector<Touched>& known, double begin, double other_begin, double end, double other_end,
+         bool mirrored) {
+    constexpr double near = 0.02;
+    const auto [low, high] = std::minmax(other_begin, other_end);
+    s_.push_back(begin), other_.push_back(other_begin);
+    for (const Touched& t : known) {
+      if (t.mirrored != mirrored || t.other < low - near || t.other > high + near) continue;
+      if (t.s < begin - near || t.s > end + near) continue;
+      if (!std::isnan(t.pressure)) at_.push_back(t.s), pressure_.push_back(t.pressure);
+      const double sign = mirrored ? -1.0 : 1.0;  // an image runs the other way
+      if (t.s > s_.back() && t.s < end && sign * (t.other - other_.back()) > 0.0 &&
+          sign * (other_end - t.other) > 0.0)
+        s_.push_back(t.s), other_.push_back(t.other);
+    }
+    s_.push_back(end), other_.push_back(other_end);
+    if (!pressure_.empty()) least_ = 0.05 * *std::max_element(pressure_.begin(), pressure_.end());
+  }
+
+  double other(double s) const { return interpolated(s_, other_, s); }
+  double rate(double s) const {
+    const auto after = std::clamp<std::size_t>(
+        static_cast<std::size_t>(std::upper_bound(s_.begin(), s_.end(), s) - s_.begin()), 1, s_.size() - 1);
+    return (other_[after] - other_[after - 1]) / (s_[after] - s_[after - 1]);
+  }
+  bool pressed() const { return least_ > 0.0; }
+  double pressure(double s) const { return least_ + interpolated(at_, pressure_, s); }
+  /// Where a strand meets its own image.
+  double meets_itself() const {
+    for (std::size_t k = 1; k < s_.size(); ++k) {
+      const double before = s_[k - 1] - other_[k - 1], after = s_[k] - other_[k];
+      if (before <= 0.0 && after >= 0.0) return s_[k - 1] + (s_[k] - s_[k - 1]) * before / (before - after);
+    }
+    return 0.5 * (s_.front() + s_.back());
+  }
+
+ private:
+  static double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at) {
+    const auto after = static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), at) - x.begin());
+    if (after == 0) return y.front();
+    if (after == x.size()) return y.back();
+    return y[after - 1] + (y[after] - y[after - 1]) * (at - x[after - 1]) / (x[after] - x[after - 1]);
+  }
+  std::vector<double> s_, other_, at_, pressure_;
+  double least_ = 0.0;
+};
+
+/// Places between two, `begin` and `end` not among them. @param presses  at begin, at end: another strand presses there, by a point force
+/// that goes on to this line
+std::vector<double> laid_out(const Course& course, double begin, double end, std::array<bool, 2> presses,
+                             double stiffness, double finer) {
+  constexpr double quarter = 0.25, denser = 1.5;
+  constexpr int samples = 200;
+  std::vector<double> sum{0.0};
+  const double step = (end - begin) / samples;
+  for (int k = 0; k < samples; ++k) {
+    const double s = begin + (k + 0.5) * step, p = course.pressed() ? course.pressure(s) : 0.0;
+    const double both = 1.0 + std::pow(std::abs(course.rate(s)), 3);  // each gives way over its own span
+    const double most = std::pow(384.0 * stiffness * quarter * carried_between_strands / (p * both), 0.25);
+    double density = 1.0 / most;
+    if (presses[0]) density += denser / most * std::exp(-0.5 * (s - begin) / most);
+    if (presses[1]) density += denser / most * std::exp(-0.5 * (end - s) / most);
+    sum.push_back(sum.back() + (p > 0.0 ? step * density : 1.0 / (samples + 1)));
+  }
+  const int links = std::max(1, static_cast<int>(std::ceil(finer * sum.back())));
+  std::vector<double> out;
+  int k = 0;
+  for (int i = 1; i < links; ++i) {
+    const double goal = sum.back() * i / links;
+    while (sum[k + 1] < goal) ++k;
+    out.push_back(begin + step * (k + (goal - sum[k]) / (sum[k + 1] - sum[k])));
+  }
+  return out;
+}
+
+/// One line of a skeleton: its ends, along the strand that is divided, and the joints between them.
+struct Divided {
+  std::vector<double> s;
+  double other_begin, other_end;
+  bool image, own_image, by_first;
+  int mark;
+};
+
+Divided divided(const Strip& strip, const StrandLine& line, const std::vector<Touched>& known) {
+  Divided out;
+  out.image = line.image, out.own_image = line.own_image();
+  out.mark = strip.on[line.first.front()].line;
+  int begin = line.first.front(), end = line.first.back();
+  int other_begin = line.second.front(), other_end = line.second.back();
+  double middle = 0.0;
+  if (out.own_image) {
+    const Course course(known, strip.s[begin], strip.s[end], strip.s[end], strip.s[begin], true);
+    middle = course.meets_itself();
+  }
+  const auto between = [&](double low, double high) {
+    std::vector<double> s;
+    for (const double at : strip.s)
+      if (at > low && at < high) s.push_back(at);
+    return s;
+  };
+  const auto of = [&](int one, int two) {
+    const auto [low, high] = std::minmax(strip.s[one], strip.s[two]);
+    return between(low, high);
+  };
+  if (out.own_image) {
+    const std::vector<double> lower = between(strip.s[begin], middle), upper = between(middle, strip.s[end]);
+    out.by_first = lower.size() >= upper.size();
+    out.s = out.by_first ? lower : upper;
+    out.s.insert(out.s.begin(), out.by_first ? strip.s[begin] : middle);
+    out.s.push_back(out.by_first ? middle : strip.s[end]);
+    out.other_begin = out.by_first ? strip.s[end] : middle;
+    out.other_end = out.by_first ? middle : strip.s[begin];
+    return out;
+  }
+  const std::vector<double> first = of(begin, end), second = of(other_begin, other_end);
+  out.by_first = first.size() > second.size() || (first.size() == second.size() && begin < other_begin);
+  if (!out.by_first) std::swap(begin, other_begin), std::swap(end, other_end);
+  if (begin > end) std::swap(begin, end), std::swap(other_begin, other_end);
+  out.s = out.by_first ? first : second;
+  out.s.insert(out.s.begin(), strip.s[begin]), out.s.push_back(strip.s[end]);
+  out.other_begin = strip.s[other_begin], out.other_end = strip.s[other_end];
+  return out;
+}
+
+/// A place that is not right at a joint.
+double clear_of(const Strip& strip, double s) {
+  constexpr double clear = 2e-4;
+  for (const double at : strip.s)
+    if (std::abs(s - at) < clear) return s < at ? at - clear : at + clear;
+  return s;
+}
+
+}  // namespace
+
+Skeleton skeleton_of(const Strip& strip) {
+  Skeleton out{strip, {}, {}};
+  const int count = static_cast<int>(strip.s.size());
+  int kept = 0;
+  for (int j = 0; j < count; ++j) {
+    const bool inside = strip.on[j].part > 0.0 && strip.on[j].line != 0;
+    out.joint.push_back(inside ? -1 : kept++);
+    if (j + 1 < count) out.link.push_back(kept - 1);
+  }
+  for (int j = count; j-- > 0;)
+    if (out.joint[j] < 0)
+      out.strip.merge(j - 1, j, joined(out.strip.parts[j - 1].kind, out.strip.parts[j].kind));
+  return out;
+}
+
+Successor with_touches(const Successor& skeleton, const chain::Profile& profile,
+                       const chain::Topology& topology, double finer) {
+  Strip strip(skeleton);
+  const Strands strands(skeleton.topology);
+  const std::vector<Touched> known = touched_by(profile, topology);
+  std::vector<Divided> lines;
+  for (const StrandLine& line : strands.lines())
+    if (!line.on_obstacles || strip.on[line.first.front()].line != 0)
+      lines.push_back(divided(strip, line, known));
+  int strand = new_strand(strip);
+  for (const Divided& line : lines) {
+    const Course course(known, line.s.front(), line.other_begin, line.s.back(), line.other_end, line.image);
+    const auto add = [&](double s, double other) {
+      s = clear_of(strip, s);
+      if (other != s) other = clear_of(strip, other);
+      if (!line.by_first && !line.own_image) std::swap(s, other);
+      add_pair(strip, s, other, line.image, line.own_image, {0, strand++, 0.5, line.mark});
+    };
+    for (std::size_t k = 0; k + 1 < line.s.size(); ++k) {
+      const bool fresh = strip.parts[strip.part_at(0.5 * (line.s[k] + line.s[k + 1]))].fresh;
+      if (fresh && line.s.size() == 2) continue;  // a line that has no length yet
+      for (const double s :
+           laid_out(course, line.s[k], line.s[k + 1], {k > 0, k + 2 < line.s.size()},
+                    profile.material.bending_stiffness, finer))
+        add(s, course.other(s));
+    }
+    if (line.own_image) {
+      const double middle = clear_of(strip, line.by_first ? line.s.back() : line.s.front());
+      add(middle, middle);
+    }
+  }
+  measure_parts(strip);
+  return strip.successor();
+}
+
+}  // namespace windlass::equilibrium
