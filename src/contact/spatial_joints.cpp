@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "slipping.hpp"
 #include "windlass/rod/dragged_line_arc.hpp"
 
 namespace windlass::contact::spatial {
@@ -28,44 +29,6 @@ Attachment lying(const double* w) {
   at.x << w[0], w[1];
   at.dx.leftCols(2).setIdentity();
   return at;
-}
-
-/// Displacements along the surface, turned so that the force N + mu d of a cylinder that slips does no work on them.
-/// @param d  components of the direction of slip along the chart's tangents
-SmallMatrix slipping(const SmallMatrix& along, const obstacle::Chart& here, double friction,
-                     const Vector2d& d) {
-  SmallMatrix tested = along;
-  tested.leftCols<2>() -= friction * here.normal * d.transpose();
-  return tested;
-}
-
-/// Derivatives of those displacements' work on a force f, of rows k and columns l: −mu [∂d_k/∂w_l N + d_k ∂N/∂w_l]·f.
-void add_slipping(const obstacle::Chart& here, double friction, const Vector2d& d,
-                  const Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, max_coordinates>& by_w,
-                  const SmallVector& f, SmallMatrix& out) {
-  const Vector3d force = f;
-  out.topRows<2>() -= friction * here.normal.dot(force) * by_w;
-  out.topLeftCorner<2, 2>() -= friction * d * here.normal_slope(force).transpose();
-}
-
-/// Direction of slip at a touch, d = (e_z − ω t)/|e_z − ω t|, and its derivatives, along the chart's tangents.
-struct TouchSlip {
-  Vector2d d;
-  Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, max_coordinates> by_w;
-};
-TouchSlip slip_at(const obstacle::Chart& here, const Eigen::Matrix3d& directors, double travel) {
-  const Vector3d v = Vector3d::UnitZ() - travel * directors.col(2);
-  const double size = v.norm();
-  const Vector3d d = v / size;
-  Eigen::Matrix3d turned;  // of the tangent, with increments of half the angle
-  turned << -2.0 * directors.col(1), 2.0 * directors.col(0), Vector3d::Zero();
-  TouchSlip out;
-  out.d = here.tangents.transpose() * d;
-  out.by_w.setZero(2, 5);
-  out.by_w.leftCols<2>() = here.second(d);
-  out.by_w.rightCols<3>() = here.tangents.transpose() * (Eigen::Matrix3d::Identity() - d * d.transpose()) *
-                            (-travel / size) * turned;
-  return out;
 }
 
 rod::Quaternion frame_at(const double* q) { return Eigen::Map<const Eigen::Vector4d>(q); }
@@ -179,7 +142,7 @@ void Edge::curvature(Side side, const double* w, const Loads& loads, const Small
   if (side == line_) return;
   if (loads.friction > 0.0 && surface_->slips()) {
     const rod::Slip slip = rod::slip(w[2], loads.travel);
-    Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, max_coordinates> by_w;
+    SlipSlope by_w;
     by_w.setZero(2, 4);
     by_w.col(2) = slip.by_psi;
     add_slipping(chart(w), loads.friction, slip.d, by_w, f, out);

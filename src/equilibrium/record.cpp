@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "dense_samples.hpp"
+#include "record_drag.hpp"
 #include "windlass/chain/self_distance.hpp"
 #include "windlass/obstacle/cylinder.hpp"
 #include "windlass/rod/quaternion.hpp"
@@ -245,81 +244,6 @@ void measure_invariants(Solution& out, const chain::RodKind& kind) {
   out.invariants.force_residual = balance.norm();
 }
 
-namespace {
-
-/// mu N d_z of the contacts where the rod lies on a plate, too: it takes the friction on the spot. @returns the sum
-double drag_on_plate(Solution& state, const Topology& topology, double upward) {
-  double sum = 0.0;
-  for (int k = 0; k < static_cast<int>(state.arcs.size()); ++k) {
-    ArcRecord& arc = state.arcs[static_cast<std::size_t>(k)];
-    JointRecord& joint = state.joints[static_cast<std::size_t>(k)];
-    if (topology.lies_flat(k)) arc.plate_force = upward * arc.force;
-    const bool edge = topology.lies_flat(k) || topology.lies_flat(k - 1);
-    if (edge && joint.obstacle == 0) joint.plate_force = upward * joint.force;
-    sum += arc.plate_force + joint.plate_force;
-  }
-  return sum;
-}
-
-/// The same of the other contacts: what they take of the force along the axis.
-double axial_drag(const Solution& state, const Topology& topology) {
-  double sum = 0.0;
-  for (int k = 0; k < static_cast<int>(state.arcs.size()); ++k) {
-    if (topology.lies_flat(k)) continue;
-    const ArcRecord& arc = state.arcs[static_cast<std::size_t>(k)];
-    if (arc.kind == ArcKind::line && arc.obstacle == 0) sum += arc.n(2, 0) - arc.n(2, arc.n.cols() - 1);
-    if (k == 0 || topology.lies_flat(k - 1) || state.joints[static_cast<std::size_t>(k)].obstacle != 0)
-      continue;
-    const ArcRecord& before = state.arcs[static_cast<std::size_t>(k - 1)];
-    sum += before.n(2, before.n.cols() - 1) - arc.n(2, 0);
-  }
-  return sum;
-}
-
-/// Of a dragged state only what friction leaves is conserved: the axial torque where the rod does not run along itself.
-/// The residual of the forces is that of the contacts of the cylinder, across the axis: N (e_r + mu d).
-void measure_drag(Solution& out, double friction) {
-  out.invariants.hamiltonian_drift = out.invariants.force_residual = 0.0;
-  if (out.travel_rate != 0.0) out.invariants.axial_torque_drift = 0.0;
-  for (std::size_t k = 1; k + 1 < out.joints.size(); ++k) {
-    const JointRecord& joint = out.joints[k];
-    const ArcRecord &before = out.arcs[k - 1], &after = out.arcs[k];
-    const Vector3d t = rod::directors(after.q.col(0)).col(2);
-    Vector3d force = joint.force * joint.normal;
-    if (joint.obstacle == 0)
-      force += joint.force * friction * (Vector3d::UnitZ() - out.travel_rate * t).normalized();
-    const Vector3d rest = before.n.rightCols<1>() - after.n.col(0) - force;
-    out.invariants.force_residual = std::max(out.invariants.force_residual, rest.head<2>().norm());
-  }
-}
-
-/// Of a cylinder that slips along the rod, and the plate that holds it back.
-void record_drag(const RodProblem& problem, const Vector& x, const scene::Scene& scene, Solution& out) {
-  if (!scene.slides()) return;
-  out.dragged = true;
-  if (!problem.spatial()) {
-    // Flat, the rod lies on the plate wherever it touches the cylinder, and the plate takes the friction there.
-    out.plate_force = *out.F0;
-    for (ArcRecord& arc : out.arcs) {
-      arc.r.row(2).array() += scene.plate->height;
-      arc.plate_force = *scene.friction * arc.force;
-    }
-    for (JointRecord& joint : out.joints) {
-      joint.r(2) += scene.plate->height, joint.z += scene.plate->height;
-      joint.plate_force = *scene.friction * joint.force;
-    }
-    return;
-  }
-  const double travelled = problem.chain().travelled(x);
-  (scene.ends.travel == scene::Travel::free ? out.travel_rate : out.pull_difference) = travelled;
-  const double upward = *scene.friction / std::sqrt(1.0 + out.travel_rate * out.travel_rate);
-  const double on_plate = drag_on_plate(out, problem.topology(), upward);
-  out.plate_force += on_plate;
-  out.F0 = on_plate + axial_drag(out, problem.topology());
-}
-
-}  // namespace
-
 Solution record(RodProblem& problem, const Vector& x, const Vector& p) {
   const contact::Loads loads = problem.loads(p);
   const chain::Profile shape = problem.profile(x, p);
@@ -371,79 +295,6 @@ Solution record(RodProblem& problem, const Vector& x, const Vector& p) {
   out.restart = restart_of(problem, x);
   multiply(out, scene.solved_in);
   return out;
-}
-
-std::string chain_of(const RodProblem& problem) {
-  nlohmann::json chain;
-  chain["spatial"] = problem.spatial();
-  chain["half"] = problem.topology().half;
-  chain["mid_touch"] = problem.topology().mid_touch;
-  const scene::Units& units = problem.units();
-  chain["units"] = {{"length", units.length}, {"bending_stiffness", units.bending_stiffness}};
-  for (const Stretch stretch : problem.topology().stretches)
-    chain["stretches"].push_back(static_cast<int>(stretch));
-  for (const chain::Seat& seat : problem.topology().on) {
-    chain["on"].push_back(seat.obstacle);
-    chain["strands"].push_back(seat.strand);
-    chain["parts"].push_back(seat.part);
-    chain["lines"].push_back(seat.line);
-    chain["stops"].push_back(seat.stop);
-    chain["flats"].push_back(seat.flat);
-    chain["middles"].push_back(static_cast<int>(seat.middle));
-  }
-  for (const auto& mesh : problem.meshes())
-    chain["meshes"].push_back({{"nodes", mesh.nodes}, {"stages", mesh.stages}});
-  return chain.dump();
-}
-
-Restart restart_of(const RodProblem& problem, const Vector& x) { return {chain_of(problem), x}; }
-
-scene::Units units_of(const std::string& chain) {
-  const nlohmann::json all = nlohmann::json::parse(chain);
-  if (!all.contains("units")) return {};  // of a run made before states had units of their own
-  const nlohmann::json& units = all.at("units");
-  return scene::Units::of(units.at("length"), units.at("bending_stiffness"));
-}
-
-std::shared_ptr<RodProblem> rebuild(const scene::Scene& scene, const std::string& text,
-                                    const std::vector<std::string>& keys) {
-  const nlohmann::json chain = nlohmann::json::parse(text);
-  Topology topology;
-  topology.half = chain.at("half");
-  topology.mid_touch = chain.at("mid_touch");
-  for (int k : chain.at("stretches")) topology.stretches.push_back(static_cast<Stretch>(k));
-  const auto on = chain.value("on", std::vector<int>()), strands = chain.value("strands", std::vector<int>());
-  const auto parts = chain.value("parts", std::vector<double>());
-  const auto lines = chain.value("lines", std::vector<int>());
-  const auto flats = chain.value("flats", std::vector<int>());
-  const auto stops = chain.value("stops", std::vector<int>()), middles = chain.value("middles", stops);
-  for (std::size_t j = 0; j < on.size(); ++j)
-    topology.on.push_back({on[j], j < strands.size() ? strands[j] : 0, j < parts.size() ? parts[j] : 0.0,
-                           j < lines.size() ? lines[j] : 0, j < stops.size() ? stops[j] : -1,
-                           j < flats.size() ? flats[j] : -1,
-                           j < middles.size() && stops[j] >= 0 && middles[j] == 1});
-  std::vector<chain::ArcMesh> meshes;
-  for (const auto& mesh : chain.at("meshes"))
-    meshes.push_back({mesh.at("nodes").get<std::vector<double>>(), mesh.at("stages").get<int>()});
-  return std::make_shared<RodProblem>(scene::in_units(scene, units_of(text)), chain.at("spatial").get<bool>(),
-                                      topology, meshes, keys);
-}
-
-std::shared_ptr<RodProblem> reopen(const scene::Scene& scene, const Restart& restart,
-                                   const std::vector<std::string>& keys) {
-  const auto refuse = [](const std::string& why) {
-    return std::runtime_error("the stored point cannot be restarted: " + why);
-  };
-  std::shared_ptr<RodProblem> problem;
-  try {
-    problem = rebuild(scene, restart.chain, keys);
-  } catch (const nlohmann::json::exception& error) {  // damaged text
-    throw refuse(error.what());
-  } catch (const std::invalid_argument& error) {  // a chain that the kind of rod cannot have
-    throw refuse(error.what());
-  }
-  if (problem->chain().ambient_size() != restart.state.size()) throw refuse("its state has another size");
-  return problem;
 }
 
 }  // namespace windlass::equilibrium

@@ -1,0 +1,84 @@
+#include "record_drag.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "windlass/rod/quaternion.hpp"
+
+namespace windlass::equilibrium {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// mu N d_z of the contacts where the rod lies on a plate, too: it takes the friction on the spot. @returns the sum
+double drag_on_plate(Solution& state, const Topology& topology, double upward) {
+  double sum = 0.0;
+  for (int k = 0; k < static_cast<int>(state.arcs.size()); ++k) {
+    ArcRecord& arc = state.arcs[static_cast<std::size_t>(k)];
+    JointRecord& joint = state.joints[static_cast<std::size_t>(k)];
+    if (topology.lies_flat(k)) arc.plate_force = upward * arc.force;
+    const bool edge = topology.lies_flat(k) || topology.lies_flat(k - 1);
+    if (edge && joint.obstacle == 0) joint.plate_force = upward * joint.force;
+    sum += arc.plate_force + joint.plate_force;
+  }
+  return sum;
+}
+
+/// The same of the other contacts: what they take of the force along the axis.
+double axial_drag(const Solution& state, const Topology& topology) {
+  double sum = 0.0;
+  for (int k = 0; k < static_cast<int>(state.arcs.size()); ++k) {
+    if (topology.lies_flat(k)) continue;
+    const ArcRecord& arc = state.arcs[static_cast<std::size_t>(k)];
+    if (arc.kind == ArcKind::line && arc.obstacle == 0) sum += arc.n(2, 0) - arc.n(2, arc.n.cols() - 1);
+    if (k == 0 || topology.lies_flat(k - 1) || state.joints[static_cast<std::size_t>(k)].obstacle != 0)
+      continue;
+    const ArcRecord& before = state.arcs[static_cast<std::size_t>(k - 1)];
+    sum += before.n(2, before.n.cols() - 1) - arc.n(2, 0);
+  }
+  return sum;
+}
+
+}  // namespace
+
+void measure_drag(Solution& out, double friction) {
+  out.invariants.hamiltonian_drift = out.invariants.force_residual = 0.0;
+  if (out.travel_rate != 0.0) out.invariants.axial_torque_drift = 0.0;
+  for (std::size_t k = 1; k + 1 < out.joints.size(); ++k) {
+    const JointRecord& joint = out.joints[k];
+    const ArcRecord &before = out.arcs[k - 1], &after = out.arcs[k];
+    const Vector3d t = rod::directors(after.q.col(0)).col(2);
+    Vector3d force = joint.force * joint.normal;
+    if (joint.obstacle == 0)
+      force += joint.force * friction * (Vector3d::UnitZ() - out.travel_rate * t).normalized();
+    const Vector3d rest = before.n.rightCols<1>() - after.n.col(0) - force;
+    out.invariants.force_residual = std::max(out.invariants.force_residual, rest.head<2>().norm());
+  }
+}
+
+void record_drag(const RodProblem& problem, const Vector& x, const scene::Scene& scene, Solution& out) {
+  if (!scene.slides()) return;
+  out.dragged = true;
+  if (!problem.spatial()) {
+    // Flat, the rod lies on the plate wherever it touches the cylinder, and the plate takes the friction there.
+    out.plate_force = *out.F0;
+    for (ArcRecord& arc : out.arcs) {
+      arc.r.row(2).array() += scene.plate->height;
+      arc.plate_force = *scene.friction * arc.force;
+    }
+    for (JointRecord& joint : out.joints) {
+      joint.r(2) += scene.plate->height, joint.z += scene.plate->height;
+      joint.plate_force = *scene.friction * joint.force;
+    }
+    return;
+  }
+  const double travelled = problem.chain().travelled(x);
+  (scene.ends.travel == scene::Travel::free ? out.travel_rate : out.pull_difference) = travelled;
+  const double upward = *scene.friction / std::sqrt(1.0 + out.travel_rate * out.travel_rate);
+  const double on_plate = drag_on_plate(out, problem.topology(), upward);
+  out.plate_force += on_plate;
+  out.F0 = on_plate + axial_drag(out, problem.topology());
+}
+
+}  // namespace windlass::equilibrium
