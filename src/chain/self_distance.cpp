@@ -126,8 +126,7 @@ class Search {
   Search(const Curve& curve, double least_separation) : curve_(curve), separation_(least_separation) {}
   /// @param cutoff  only what is nearer counts
   /// @param known   pairs of places that do not
-  Search(const Curve& curve, double least_separation, double cutoff,
-         const std::vector<Touch>& known)
+  Search(const Curve& curve, double least_separation, double cutoff, const std::vector<Touch>& known)
       : curve_(curve), separation_(least_separation), cutoff_(cutoff), known_(known) {}
 
   /// Pairs within the elements a … b − 1.
