@@ -12,6 +12,16 @@
 
 namespace continuation {
 
+namespace {
+
+bool same_functions(const std::vector<EventFunction>& a, const std::vector<EventFunction>& b) {
+  return std::equal(
+      a.begin(), a.end(), b.begin(), b.end(),
+      [](const EventFunction& one, const EventFunction& other) { return one.name == other.name; });
+}
+
+}  // namespace
+
 void Walker::adapt() {
   if (!options_.adapt) return;
   // The new tangent is oriented by its parameter component, which says nothing next to a fold.
@@ -28,10 +38,15 @@ void Walker::adapt() {
     const double last_ds = state_.last_ds;
     std::vector<EventFunction> previous_events = std::move(state_.previous_events);
     EventSigns signs = state_.signs;
+    const bool described_anew = !same_functions(state_.events, sample->events);
     settle(segment, *sample);
-    state_.signs = std::move(signs);  // what only the new mesh makes negative is still to be passed
-    state_.last_ds = last_ds;         // the same point: the rates of events still run from the one before
-    state_.previous_events = std::move(previous_events);
+    state_.last_ds = last_ds;  // the same point: the rates of events still run from the one before
+    if (described_anew) {
+      state_.previous_events.clear();
+    } else {
+      state_.signs = std::move(signs);  // what only the new mesh makes negative is still to be passed
+      state_.previous_events = std::move(previous_events);
+    }
     state_.mesh_changed = true;
     state_.previous_tangent = state_.tangent;
   } catch (const std::domain_error& error) {
@@ -53,7 +68,8 @@ void Walker::settle_event(Point& event, const std::string& name) {
     const EventFunction* function = find(events, name);
     return function ? std::optional(function->value) : std::nullopt;
   };
-  if (state_.end || !state_.mesh_changed) {
+  // A state that is described anew has other events.
+  if (state_.end || !state_.mesh_changed || !same_functions(before.events, state_.events)) {
     state_ = before;
     return;
   }

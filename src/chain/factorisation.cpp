@@ -282,10 +282,8 @@ void Chain::factor(const VectorXd& x, const Loads& loads, const MatrixXd& b_aske
   for (const Link& link : links_) negative += link.arc->negative_pivots();
   determinant_sign_ = negative % 2 == 0 ? 1 : -1;
   if (dense.rows() > 0) {
-    const auto diagonal = dense_.matrixLU().diagonal();
-    if (diagonal.cwiseAbs().minCoeff() == 0.0) throw SingularMatrix("the chain's matrix is singular");
-    if ((diagonal.array() < 0.0).count() % 2 == 1) determinant_sign_ = -determinant_sign_;
-    determinant_sign_ *= static_cast<int>(dense_.permutationP().determinant());
+    if (dense_.determinant_sign() == 0) throw SingularMatrix("the chain's matrix is singular");
+    determinant_sign_ *= dense_.determinant_sign();
   }
 }
 
@@ -343,7 +341,7 @@ VectorXd Chain::solve(const VectorXd& f, const VectorXd& g, bool transposed) con
   reduce(x, transposed);
   rhs.head(n) = x.head(n);
   VectorXd y(n + k);
-  if (n + k > 0) y = transposed ? VectorXd(dense_.transpose().solve(rhs)) : VectorXd(dense_.solve(rhs));
+  if (n + k > 0) y = dense_.solve(rhs, transposed);
   if (k > 0) x.tail(size_ - n) -= column.bottomRows(size_ - n) * y.tail(k);
   x.head(n) = y.head(n);
   expand(x, transposed);

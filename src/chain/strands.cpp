@@ -120,16 +120,16 @@ void Strands::face(const std::vector<int>& touches) {
   };
   for (std::size_t k = 0; k + 1 < touches.size(); ++k) {
     const int j = touches[k], a = partner_[j];
-    const auto follows = std::find_if(touches.begin() + static_cast<std::ptrdiff_t>(k) + 1, touches.end(), [&](int next) {
-      return mirrored_[next] == mirrored_[j] && (mirrored_[j] ? partner_[next] < a : partner_[next] > a);
-    });
+    const auto follows =
+        std::find_if(touches.begin() + static_cast<std::ptrdiff_t>(k) + 1, touches.end(), [&](int next) {
+          return mirrored_[next] == mirrored_[j] && (mirrored_[j] ? partner_[next] < a : partner_[next] > a);
+        });
     if (follows == touches.end()) continue;
     const int next = *follows, b = partner_[next];
     if (line_of_[j] >= 0 && line_of_[j] == line_of_[next]) continue;
     if (std::min(a, b) < j) continue;  // found from the other strand
-    const bool parted = std::any_of(touches.begin(), touches.end(), [&](int t) {
-      return within(t, j, next) && within(partner_[t], a, b);
-    });
+    const bool parted = std::any_of(touches.begin(), touches.end(),
+                                    [&](int t) { return within(t, j, next) && within(partner_[t], a, b); });
     if (!parted) add({j, next, std::min(a, b), std::max(a, b), mirrored_[j], -1});
   }
 }

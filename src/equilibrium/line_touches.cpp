@@ -91,7 +91,7 @@ class Course {
 /// Places between two, `begin` and `end` not among them. @param presses  at begin, at end: another strand presses there, by a point force
 /// that goes on to this line
 std::vector<double> laid_out(const Course& course, double begin, double end, std::array<bool, 2> presses,
-                             double stiffness, double finer) {
+                             double stiffness, double finer, double& needed) {
   constexpr double quarter = 0.25, denser = 1.5;
   constexpr int samples = 200;
   std::vector<double> sum{0.0};
@@ -105,6 +105,7 @@ std::vector<double> laid_out(const Course& course, double begin, double end, std
     if (presses[1]) density += denser / most * std::exp(-0.5 * (end - s) / most);
     sum.push_back(sum.back() + (p > 0.0 ? step * density : 1.0 / (samples + 1)));
   }
+  needed += finer * sum.back();
   const int links = std::max(1, static_cast<int>(std::ceil(finer * sum.back())));
   std::vector<double> out;
   int k = 0;
@@ -208,15 +209,16 @@ Successor with_touches(const Successor& skeleton, const chain::Profile& profile,
       if (!line.by_first && !line.own_image) std::swap(s, other);
       add_pair(strip, s, other, line.image, line.own_image, {0, strand++, 0.5, line.mark});
     };
+    double needed = 0.0;
     for (std::size_t k = 0; k + 1 < line.s.size(); ++k) {
       const bool fresh = strip.parts[strip.part_at(0.5 * (line.s[k] + line.s[k + 1]))].fresh;
       if (fresh && line.s.size() == 2) continue;  // a line that has no length yet
-      for (const double s :
-           laid_out(course, line.s[k], line.s[k + 1], {k > 0, k + 2 < line.s.size()},
-                    profile.material.bending_stiffness, finer))
+      for (const double s : laid_out(course, line.s[k], line.s[k + 1], {k > 0, k + 2 < line.s.size()},
+                                     profile.material.bending_stiffness, finer, needed))
         add(s, course.other(s));
     }
-    if (line.own_image) {
+    constexpr double half = 0.5;  // of what is between two touches
+    if (line.own_image && needed > half && (course.pressed() || finer > 1.0)) {
       const double middle = clear_of(strip, line.by_first ? line.s.back() : line.s.front());
       add(middle, middle);
     }

@@ -31,7 +31,15 @@ void adjust_length(Entry& entry, int link) {
   for (double length = change * now; change > 1.0 ? length < factor * entered : length > entered;
        length *= change) {
     Entry next = entry;
-    if (!tried([&] { return solve_at_length(*entry.problem, next.x, next.p, link, length) && holds(next); }))
+    const auto found_again =
+        [&] {  // at its load: where two touches of the same strands are too near, it is not
+          Vector x = next.x;
+          return !strand || entry.problem->polish(x, next.p) >= 0;
+        };
+    if (!tried([&] {
+          return solve_at_length(*entry.problem, next.x, next.p, link, length) && holds(next) &&
+                 found_again();
+        }))
       return;
     entry = next;
   }

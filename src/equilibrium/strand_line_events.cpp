@@ -61,8 +61,8 @@ std::optional<ContactEvent> laid_between(const Profile& profile, const chain::St
   ContactEvent event{ContactEvent::Kind::length, link, 1.0, profile.pieces[link].s(0)};
   const int named = line_of_several(strands, end - 1) < 0 ? end - 1 : begin;
   if (link == named)
-    event.value = profile.pieces[end].s(0) - profile.pieces[begin].s(0) -
-                  least_beside_strand * profile.unit_length;
+    event.value =
+        profile.pieces[end].s(0) - profile.pieces[begin].s(0) - least_beside_strand * profile.unit_length;
   return event;
 }
 

@@ -171,6 +171,23 @@ std::optional<Successor> line_with_next(int joint, const chain::Profile& profile
   return std::nullopt;
 }
 
+std::optional<Successor> line_joins(int joint, const chain::Profile& profile, const Topology& topology,
+                                    Strip strip) {
+  constexpr double near = 0.1;
+  const Strands strands(topology);
+  for (const int link : {joint - 1, joint})
+    for (const Strands::Facing& f : strands.facing(std::max(link, 0))) {
+      const bool beside = f.begin == joint || f.end == joint,
+                 line = strands.line_of(f.begin + f.end - joint) >= 0;
+      if (f.line >= 0 || !beside || !line || strip.s[f.end] - strip.s[f.begin] > near * profile.unit_length)
+        continue;
+      unite(f, strip);
+      measure_parts(strip);
+      return with_touches(skeleton_of(strip).strip.successor(), profile, topology);
+    }
+  return std::nullopt;
+}
+
 bool next_to_line(const ContactEvent& event, const Topology& topology) {
   const Strands strands(topology);
   const Strands::Facing* f = strands.facing(event.place, event.other, event.mirrored);
@@ -306,7 +323,14 @@ std::optional<Successor> line_with_fewer_touches(const chain::Profile& profile, 
   if (which < 0 || which != strands.line_of(link + 1)) return std::nullopt;
   const StrandLine& line = strands.lines()[which];
   if (line.links() < 2) return std::nullopt;
-  if (!line.on_obstacles) return with_touches(skeleton_of(strip).strip.successor(), profile, topology);
+  if (!line.on_obstacles) {
+    const Successor skeleton = skeleton_of(strip).strip.successor();
+    constexpr double fewer = 0.7, fewest = 0.01;
+    Successor out = skeleton;
+    for (double finer = 1.0; finer > fewest; finer *= fewer)
+      if (out = with_touches(skeleton, profile, topology, finer); out.s.size() < strip.s.size()) return out;
+    return skeleton;
+  }
   const Monitor monitor = monitor_of(profile, line, strip);
   return laid_anew(line, strip, monitor,
                    std::clamp(static_cast<int>(std::ceil(monitor.links)), 1, line.links() - 1));

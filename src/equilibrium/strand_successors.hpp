@@ -24,8 +24,8 @@ void add_pair(Strip& strip, double s, double other, bool mirrored, bool own_stra
 double foot(const chain::Profile& profile, double s, double guess, bool mirrored);
 
 /// The end of a line between strands has reached the edge of a line on an obstacle: it goes on beyond that. nullopt: another link.
-std::vector<Successor> line_passes_edge(int link, const chain::Profile& profile, const chain::Topology& topology,
-                                        const Strip& strip);
+std::vector<Successor> line_passes_edge(int link, const chain::Profile& profile,
+                                        const chain::Topology& topology, const Strip& strip);
 
 /// Takes out a touch between strands: at each place the arcs beside it become one.
 void take_out(int j, Strip& strip);
@@ -37,6 +37,10 @@ int new_strand(const Strip& strip);
 std::optional<Successor> line_with_next(int joint, const chain::Profile& profile,
                                         const chain::Topology& topology, Strip strip);
 
+/// A touch whose curvature is lost right beside a line of the same two strands, which goes on to it now. nullopt: there is none.
+std::optional<Successor> line_joins(int joint, const chain::Profile& profile, const chain::Topology& topology,
+                                    Strip strip);
+
 /// Do two strands come near each other next to a line of theirs?
 bool next_to_line(const ContactEvent& event, const chain::Topology& topology);
 
@@ -44,7 +48,8 @@ bool next_to_line(const ContactEvent& event, const chain::Topology& topology);
 std::optional<Successor> line_closes(const ContactEvent& event, const chain::Topology& topology, Strip strip);
 
 /// Two strands that meet right beside the end of a line of theirs, which ends there now. nullopt: elsewhere.
-std::optional<Successor> line_extends(const ContactEvent& event, const chain::Topology& topology, Strip strip);
+std::optional<Successor> line_extends(const ContactEvent& event, const chain::Topology& topology,
+                                      Strip strip);
 
 /// A line whose touches are not enough, with more of them where the strands are too near; nullopt: the link is in none.
 std::optional<Successor> line_filled(const ContactEvent& event, const chain::Profile& profile,

@@ -195,10 +195,9 @@ std::vector<Successor> after_skeleton(const ContactEvent& event, const Profile& 
   const Skeleton skeleton = skeleton_of(strip);
   ContactEvent here = event;
   const bool length = event.kind == Kind::length;
-  const bool alone =
-      length && ((!laid(event.place) && !laid(event.place + 1)) || !follows(event.place) || !follows(event.place + 1));
-  if (alone || skeleton.strip.s.size() == strip.s.size())
-  {
+  const bool alone = length && ((!laid(event.place) && !laid(event.place + 1)) || !follows(event.place) ||
+                                !follows(event.place + 1));
+  if (alone || skeleton.strip.s.size() == strip.s.size()) {
     if (!length) return strands_split(event, strip, profile);
     std::vector<Successor> out = after_length(event.place, strip),
                            longer = line_passes_edge(event.place, profile, topology, strip);
@@ -240,7 +239,12 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
       return after_force(event, strip, profile, topology);
     case Kind::curvature:
       if (const auto line = line_with_next(event.place, profile, topology, strip)) return {*line};
-      if (strip.on[event.place].strand != 0) return after_skeleton(event, profile, topology, strip);
+      if (strip.on[event.place].strand != 0) {
+        std::vector<Successor> out = after_skeleton(event, profile, topology, strip);
+        if (const auto joined = line_joins(event.place, profile, topology, strip))
+          out.insert(out.begin(), *joined);
+        return out;
+      }
       return after_curvature(event, strip, profile);
     case Kind::graze:
       return after_graze(event, strip);

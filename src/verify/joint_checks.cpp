@@ -30,12 +30,31 @@ double judged(const JointRecord& joint, const ArcRecord& before, const ArcRecord
 /// counts is how much nearer they can be half way to a neighbouring touch. 1 elsewhere.
 double distance_that_counts(const Solution& solution, std::size_t k) {
   const auto& joints = solution.joints;
-  const auto neighbours = [&](std::size_t a, std::size_t b) {
-    return joints[a].partner >= 0 && joints[b].partner >= 0 &&
-           std::abs(joints[a].partner - joints[b].partner) == 1;
+  const auto other = [&](std::size_t a) { return joints[static_cast<std::size_t>(joints[a].partner)].s; };
+  // The next touch of the same two strands: others, and edges, may be between.
+  constexpr double at_most = 0.1, rates = 4.0;
+  const auto reach = [&](int step) {
+    const int count = static_cast<int>(joints.size());
+    for (int at = static_cast<int>(k) + step; at >= 0 && at < count; at += step) {
+      const auto a = static_cast<std::size_t>(at);
+      const double distance = std::abs(joints[a].s - joints[k].s);
+      const bool next = joints[a].partner >= 0 && std::abs(joints[a].partner - joints[k].partner) == 1;
+      if (next && at == static_cast<int>(k) + step) return distance;
+      if (distance > at_most) return HUGE_VAL;
+      if (joints[a].partner >= 0 && std::abs(other(a) - other(k)) < rates * distance) return distance;
+    }
+    return HUGE_VAL;
   };
-  if (!neighbours(k, k - 1) || !neighbours(k, k + 1)) return 1.0;
-  return 0.5 * std::max(joints[k + 1].s - joints[k].s, joints[k].s - joints[k - 1].s);
+  const double farther = std::max(reach(-1), reach(1));
+  return std::isinf(farther) ? 1.0 : 0.5 * farther;
+}
+
+/// Inside a line between strands a touch may pull with what would open them by no height at all: over the span h to its neighbours
+/// by Fh³/12.
+double judged_between(const Solution& solution, std::size_t k, const Scales& scales) {
+  const double force = solution.joints[k].strand_force, span = distance_that_counts(solution, k);
+  return force < 0.0 && span < 1.0 && -force * 8.0 * span * span * span / 12.0 < tight ? 0.0
+                                                                                       : force / scales.force;
 }
 
 }  // namespace
@@ -54,7 +73,7 @@ void check_joints(const Solution& solution, const scene::Scene& scene, const Sca
       contact.add(inside ? judged(joint, solution.arcs[k - 1], solution.arcs[k], scales)
                          : joint.force / scales.force);
     }
-    if (joint.partner >= 0) between.add(joint.strand_force / scales.force);
+    if (joint.partner >= 0) between.add(judged_between(solution, k, scales));
     if (k == 0 || k + 1 == solution.joints.size()) continue;
     const Section before = last_section(solution.arcs[k - 1]), after = first_section(solution.arcs[k]);
     position.add((before.r - after.r).norm());

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "windlass/bvp/arc.hpp"
+#include "windlass/chain/block_factors.hpp"
 #include "windlass/chain/coupling.hpp"
 #include "windlass/contact/joint.hpp"
 
@@ -398,7 +399,7 @@ class Chain {
   mutable std::vector<bvp::EndsVector> gradients_;  ///< at the last residual or factorisation
   MatrixXd border_b_, border_c_;                    ///< reduced borders
   MatrixXd interior_b_, interior_c_;                ///< K⁻¹ b, K⁻¹ c on the interiors
-  Eigen::PartialPivLU<MatrixXd> dense_;
+  BlockFactors dense_;
   Eigen::Index borders_ = 0;  ///< those asked for, then that of the phase
   Eigen::Index asked_ = 0;
   int determinant_sign_ = 0;

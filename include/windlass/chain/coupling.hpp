@@ -15,13 +15,14 @@ namespace windlass::chain {
 ///
 /// **A line between strands** that lie on an obstacle is touches so near each other that between them the strands are nowhere
 /// nearer than `carried_between_strands` allows (PHYSICS, "Lines between turns"). Its ends are located by tangency; those
-/// inside divide the first strand's part of the line, tangency locates the second's places; where a strand touches its own
+/// inside divide what is between two joints on the first strand that locate themselves, tangency locates the second's places; where a
+/// strand touches its own
 /// image tangency does it all.
 struct Coupling {
   int first = 0, second = 0;  ///< joints
   bool mirrored = false;
   bool along = false;        ///< of a line: moving it costs nothing
-  int begin = -1, end = -1;  ///< inside a line: the joints at the ends of the first strand's part
+  int begin = -1, end = -1;  ///< inside a line: the joints about it that locate themselves
   double part = 0.0;         ///< where between them
   bool with_itself() const { return first == second; }
   double weight() const { return with_itself() ? 0.5 : 1.0; }

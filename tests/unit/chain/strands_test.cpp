@@ -71,10 +71,31 @@ BOOST_AUTO_TEST_CASE(an_edge_and_a_touch_with_another_strand_inside_a_line) {
   BOOST_TEST((s.facing(8, 2, false) != nullptr));
   BOOST_TEST(s.neighbours(8) == (std::array<int, 2>{5, 9}), boost::test_tools::per_element());
   const std::vector<Coupling> couplings = t.couplings();
-  BOOST_TEST(couplings[1].begin == 1);
-  BOOST_TEST(couplings[1].end == 3);
+  // Laid on the strand with the edge and the touch, between joints that locate themselves: neither passes it.
+  BOOST_TEST(s.laid(8));
+  BOOST_TEST(!s.laid(2));
+  BOOST_TEST(couplings[1].first == 8);
+  BOOST_TEST(couplings[1].second == 2);
+  BOOST_TEST(couplings[1].begin == 7);
+  BOOST_TEST(couplings[1].end == 9);
   BOOST_TEST(couplings[1].part == 0.4);
   BOOST_TEST(couplings[3].begin == -1);
+}
+
+BOOST_AUTO_TEST_CASE(a_line_with_the_own_image_is_laid_on_the_half_with_other_joints) {
+  // Joints 1 to 3 and 5 to 6 of a tail and its image, an edge (4) in the upper half.
+  const Topology t =
+      of({{0, 1, 0.0, 7}, {0, 2, 0.3, 7}, {0, 3, 0.5, 7}, {}, {0, -2, 0.6, 7}, {0, -1, 0.0, 7}});
+  const Strands s(t);
+  BOOST_REQUIRE(s.lines().size() == 1U);
+  BOOST_TEST(s.laid(5));
+  BOOST_TEST(!s.laid(2));
+  BOOST_TEST(!s.laid(3));  // tangency does it
+  BOOST_TEST(s.between(5) == (std::array<int, 2>{4, 6}), boost::test_tools::per_element());
+  const Topology bare =
+      of({{0, 1, 0.0, 7}, {0, 2, 0.3, 7}, {0, 3, 0.5, 7}, {0, -2, 0.6, 7}, {0, -1, 0.0, 7}});
+  BOOST_TEST(Strands(bare).laid(2));
+  BOOST_TEST(Strands(bare).between(2) == (std::array<int, 2>{1, 5}), boost::test_tools::per_element());
 }
 
 BOOST_AUTO_TEST_CASE(two_touches_next_to_each_other_are_no_line) {
