@@ -6,19 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "coil_run.hpp"
 #include "support/interrupt_program.hpp"
 
 using namespace windlass::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-using Words = std::vector<std::string>;
-
-Words operator+(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
 
 /// Flat and helical branch of the 2π coil with their branch point and contact events, in some 60 points.
 Words diagram(const Words& more = {}) {
