@@ -134,7 +134,7 @@ void BranchRecorder::on_point(const Branch& branch, const Point& point) {
     Solution solution = equilibrium::record(problem, point.x, point.p);
     solution.newton_iterations = point.newton_iterations;
     solution.model_reason = "a point of a branch";
-    if (point.index >= 0) add_eigenvalues(solution, point);
+    if (point.index >= 0 || solution.dragged) add_eigenvalues(solution, point);
     // A branch that arrives at a known special point carries its label again; the first one keeps it.
     const std::string label = special(point) && labels_.insert(point.label).second ? point.label : "";
     last_ = output::make_row(solution, branch.id + 1, ++in_branch_, label, type_name(point.type), point.ds);

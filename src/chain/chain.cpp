@@ -237,7 +237,7 @@ Chain::Placed Chain::place(const VectorXd& x, const Loads& loads, int link) cons
   p.interior = interior(x, link);
   p.length = length(x, loads, link);
   p.friction = loads.friction;
-  p.travel = loaded(x, loads).travel;
+  if (gauges_.travel == Travel::free) p.travel = x(slide_at_ + 1);
   if (std::isinf(p.length)) p.length = tail_decay_lengths / std::sqrt(p.n.norm());
   // Between contacts the equations hold, analytically, for lengths past zero too, so that the event can be located
   // from both sides; only zero itself is singular and is stepped over. A tail must exist.
@@ -314,7 +314,9 @@ VectorXd Chain::residual(const VectorXd& x, const Loads& loads) const {
     const Eigen::Index left = numbering_.coordinate[i], right = numbering_.coordinate[i + 1];
     f.segment(left, p.left.dq.cols()) += p.left.dq.transpose() * g.head(d) - p.left.test().transpose() * p.n;
     f.segment(right, p.right.dq.cols()) +=
-        p.right.dq.transpose() * g.segment(d, d) + p.right.test().transpose() * force_at_end(arc, p.n, g);
+        p.right.dq.transpose() * g.segment(d, d) + p.right.test().transpose() * p.n;
+    if (arc.carried() > 0)
+      f.segment(right, p.right.dq.cols()) += p.right.test().transpose() * g.tail(arc.carried());
     if (gauges_.travel != Travel::none) add_drag(x, loads, i, f);
     if (links_[i].pull == 0)
       f.segment(numbering_.force[i], forces) = g.segment(2 * d, forces) + rise(x, p, i);
@@ -336,8 +338,8 @@ VectorXd Chain::residual(const VectorXd& x, const Loads& loads) const {
   return f;
 }
 
-VectorXd Chain::force_at_end(const Arc& arc, const VectorXd& n, const bvp::EndsVector& gradient) {
-  return arc.carried() == 0 ? n : VectorXd(n + gradient.tail(arc.carried()));
+SmallVector Chain::force_at_end(const Arc& arc, const SmallVector& n, const bvp::EndsVector& gradient) {
+  return arc.carried() == 0 ? n : SmallVector(n + gradient.tail(arc.carried()));
 }
 
 void Chain::add_drag(const VectorXd& x, const Loads& loads, int link, VectorXd& f) const {

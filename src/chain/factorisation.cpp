@@ -23,16 +23,18 @@ constexpr double nothing = 1e-8;
 
 Attachment Chain::attachment(Purpose purpose, const VectorXd& x, const Loads& loads, int joint,
                              Side side) const {
-  Attachment at = joints_[joint]->attach(side, coordinates(x, joint), loaded(x, loads));
+  Attachment at = gauges_.travel == Travel::free
+                      ? joints_[joint]->attach(side, coordinates(x, joint), loaded(x, loads))
+                      : joints_[joint]->attach(side, coordinates(x, joint), loads);
   const std::vector<int>& kept = this->kept(purpose, joint);
   const auto count = static_cast<Eigen::Index>(kept.size());
   if (count == at.dq.cols()) return at;
   for (Eigen::Index k = 0; k < count; ++k) {
     at.dq.col(k) = at.dq.col(kept[k]).eval();
     at.dx.col(k) = at.dx.col(kept[k]).eval();
-    if (at.tested.size() > 0) at.tested.col(k) = at.tested.col(kept[k]).eval();
+    if (at.tested) at.tested->col(k) = at.tested->col(kept[k]).eval();
   }
-  if (at.tested.size() > 0) at.tested.conservativeResize(Eigen::NoChange, count);
+  if (at.tested) at.tested->conservativeResize(Eigen::NoChange, count);
   at.dq.conservativeResize(Eigen::NoChange, count);
   at.dx.conservativeResize(Eigen::NoChange, count);
   return at;
@@ -153,7 +155,10 @@ void Chain::add_joint_terms(Purpose purpose, const Numbering& numbering, const V
     SmallMatrix bend = SmallMatrix::Zero(all, all);
     const SmallVector g = gradient.segment(side == Side::right ? 0 : d, d),
                       f = side == Side::right ? SmallVector(-n) : n_end;
-    joints_[joint]->curvature(side, coordinates(x, joint), loaded(x, loads), g, f, bend);
+    if (gauges_.travel == Travel::free)
+      joints_[joint]->curvature(side, coordinates(x, joint), loaded(x, loads), g, f, bend);
+    else
+      joints_[joint]->curvature(side, coordinates(x, joint), loads, g, f, bend);
     if (travels) {
       if (const auto drag = joints_[joint]->drag(side, coordinates(x, joint), loaded(x, loads), g))
         bend += drag->by_w;

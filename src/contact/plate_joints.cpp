@@ -89,7 +89,7 @@ Attachment FlatEdge::attach(Side side, const double* w, const Loads& loads) cons
   Attachment at = edge_.attach(side, on_edge(w).data(), loads);
   at.dq = flat_columns(at.dq);
   at.dx = flat_columns(at.dx);
-  if (at.tested.size() > 0) at.tested = flat_columns(at.tested);
+  if (at.tested) at.tested = flat_columns(*at.tested);
   return at;
 }
 

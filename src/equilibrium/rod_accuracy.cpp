@@ -222,6 +222,7 @@ std::optional<Vector> RodProblem::adapt_mesh(const Vector& x, const Vector& p) {
 
 std::optional<Vector> RodProblem::laid_where_needed(const Vector& x, const Vector& p) {
   constexpr double few = 0.6, many = 0.03;  // of what is carried, at the place where strands are nearest
+  if (chain_->couplings().empty()) return std::nullopt;
   const chain::Profile shape = profile(x, p);
   double nearer = nearer_between_touches(shape, topology_) / carried_between_strands;
   if (nearer < 0.0) return std::nullopt;

@@ -19,6 +19,7 @@ bool applies(const Scene& scene, const Key& key) {
   if (key.name == "load.tension" || key.name == "load.angle") return scene.has_cylinder;
   if (key.name == "load.thrust" || key.name == "ends.shortening" || key.name == "ends.twist")
     return !scene.has_cylinder;
+  if (key.name == "cylinder.sliding" || key.name == "ends.travel") return scene.has_cylinder;
   return key.table() != "continuation" || scene.continuation;
 }
 

@@ -272,7 +272,8 @@ class Chain {
     return all;
   }
   /// n where an arc ends.
-  static VectorXd force_at_end(const Arc& arc, const VectorXd& n, const bvp::EndsVector& gradient);
+  static contact::SmallVector force_at_end(const Arc& arc, const contact::SmallVector& n,
+                                           const bvp::EndsVector& gradient);
   /// Adds what joints take of a line's own normal force; see Joint::drag.
   void add_drag(const VectorXd& x, const Loads& loads, int link, VectorXd& f) const;
   /// Change of a given pull's n with τ; zero for other links.

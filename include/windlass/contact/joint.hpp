@@ -47,9 +47,9 @@ struct Attachment {
   SmallVector x;   ///< position conjugate to the arc's n
   SmallMatrix dx;  ///< forces × coordinates
   /// Displacements that the contact's force does no work on, which balance is tested with: normal to e_r + mu d where a
-  /// cylinder slips. forces × coordinates; empty: dx.
-  SmallMatrix tested = {};
-  const SmallMatrix& test() const { return tested.size() > 0 ? tested : dx; }
+  /// cylinder slips. forces × coordinates; nothing: dx.
+  std::optional<SmallMatrix> tested = {};
+  const SmallMatrix& test() const { return tested ? *tested : dx; }
 };
 
 /// State of a rod at one place, from which a joint can take its coordinates.
