@@ -59,7 +59,6 @@ std::optional<Started> reach(const Started& from, const scene::Scene& scene, dou
   options.target = goal;
   options.direction = goal < from.p(0) ? -1 : 1;
   options.detect_branch_points = false;
-  options.newton_tolerance = 1e-9;  // quadratic: the error left is rounding
   options.step = 0.02;
   options.step_max = 0.2;
   options.max_points = 3000;
