@@ -46,10 +46,6 @@ int compute(const figures::PlannedRun& plan, const fs::path& out, const CommonOp
   return status;
 }
 
-}  // namespace
-
-namespace {
-
 /// What agrees with the paper and what does not, of each figure.
 nlohmann::ordered_json to_json(const std::vector<figures::Statement>& statements) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();

@@ -9,13 +9,12 @@
 
 #include "app/commands.hpp"
 #include "app/progress.hpp"
+#include "app/stored_point.hpp"
 #include "windlass/equilibrium/equilibria.hpp"
-#include "windlass/equilibrium/record.hpp"
 #include "windlass/equilibrium/start.hpp"
 #include "windlass/output/run_folder.hpp"
 #include "windlass/output/solution_json.hpp"
 #include "windlass/petsc/session.hpp"
-#include "windlass/stability/analysis.hpp"
 
 namespace windlass::app {
 
@@ -25,10 +24,8 @@ using equilibrium::Solution;
 
 void add_stability(Solution& solution, const scene::Scene& scene) {
   const auto begin = std::chrono::steady_clock::now();
-  auto problem = equilibrium::reopen(scene, solution.restart, {equilibrium::load_key(scene)});
   stability::SpectrumSolver solver;
-  solution.stability =
-      stability::analyse(*problem, solution.restart.state, problem->parameters(), 6, true, solver);
+  solution.stability = spectrum_of(scene, solution.restart, 6, true, solver);
   solution.seconds_stability =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   solution.seconds_total = solution.seconds_solve + solution.seconds_stability;
@@ -37,13 +34,9 @@ void add_stability(Solution& solution, const scene::Scene& scene) {
 /// A dragged state's index is known from its spectrum only.
 void add_indices(equilibrium::Equilibria& found, const scene::Scene& scene) {
   if (!found.answer.dragged || !found.answer.stability) return;
-  for (equilibrium::StateSummary& state : found.states) {
-    if (state.index >= 0) continue;
-    auto problem = equilibrium::reopen(scene, state.restart, {equilibrium::load_key(scene)});
-    stability::SpectrumSolver solver;
-    state.index =
-        stability::analyse(*problem, state.restart.state, problem->parameters(), 2, false, solver).index;
-  }
+  stability::SpectrumSolver solver;
+  for (equilibrium::StateSummary& state : found.states)
+    if (state.index < 0) state.index = spectrum_of(scene, state.restart, 2, false, solver).index;
 }
 
 constexpr double degrees = 180.0 / M_PI;

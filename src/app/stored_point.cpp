@@ -17,12 +17,17 @@ scene::Scene scene_of_point(scene::Scene scene, const output::Run& run, std::siz
   return scene;
 }
 
+equilibrium::Stability spectrum_of(const scene::Scene& scene, const equilibrium::Restart& restart, int count,
+                                   bool modes, stability::SpectrumSolver& solver) {
+  const auto problem = equilibrium::reopen(scene, restart, {equilibrium::load_key(scene)});
+  return stability::analyse(*problem, restart.state, problem->parameters(), count, modes, solver);
+}
+
 equilibrium::Stability spectrum_of_point(const scene::Scene& scene, const output::Run& run,
                                          std::size_t position, int count, stability::SpectrumSolver& solver) {
   const equilibrium::Solution stored = run.points.get(position);
   const scene::Scene at = scene_of_point(scene, run, position);
-  auto problem = equilibrium::reopen(at, stored.restart, {equilibrium::load_key(at)});
-  return stability::analyse(*problem, stored.restart.state, problem->parameters(), count, true, solver);
+  return spectrum_of(at, stored.restart, count, true, solver);
 }
 
 }  // namespace windlass::app

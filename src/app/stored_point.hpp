@@ -9,7 +9,11 @@ namespace windlass::app {
 /// The run's scene with the loads, and the parameter that varied, of a stored point.
 scene::Scene scene_of_point(scene::Scene scene, const output::Run& run, std::size_t position);
 
-/// Its lowest eigenvalues and their modes. @throws as stability::analyse
+/// Lowest eigenvalues, and with `modes` their modes, of a state that can be restarted. @throws as stability::analyse
+equilibrium::Stability spectrum_of(const scene::Scene& scene, const equilibrium::Restart& restart, int count,
+                                   bool modes, stability::SpectrumSolver& solver);
+
+/// The stored point's lowest eigenvalues and their modes. @throws as stability::analyse
 equilibrium::Stability spectrum_of_point(const scene::Scene& scene, const output::Run& run,
                                          std::size_t position, int count, stability::SpectrumSolver& solver);
 

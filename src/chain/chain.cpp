@@ -314,16 +314,15 @@ VectorXd Chain::residual(const VectorXd& x, const Loads& loads) const {
     const Eigen::Index left = numbering_.coordinate[i], right = numbering_.coordinate[i + 1];
     f.segment(left, p.left.dq.cols()) += p.left.dq.transpose() * g.head(d) - p.left.test().transpose() * p.n;
     f.segment(right, p.right.dq.cols()) +=
-        p.right.dq.transpose() * g.segment(d, d) + p.right.test().transpose() * p.n;
-    if (arc.carried() > 0)
-      f.segment(right, p.right.dq.cols()) += p.right.test().transpose() * g.tail(arc.carried());
-    if (gauges_.travel != Travel::none) add_drag(x, loads, i, f);
+        p.right.dq.transpose() * g.segment(d, d) + p.right.test().transpose() * force_at_end(arc, p.n, g);
+    for (const Side side : {Side::right, Side::left})
+      if (const auto drag = drag_at(x, loads, i, side))
+        add_kept(drag->value, side == Side::right ? i : i + 1, f);
     if (links_[i].pull == 0)
       f.segment(numbering_.force[i], forces) = g.segment(2 * d, forces) + rise(x, p, i);
   }
   for (int j = 0; j < joint_count(); ++j) {
-    const SmallVector load = joints_[j]->dead_load(coordinates(x, j), loads);
-    for (std::size_t k = 0; k < kept_[j].size(); ++k) f(numbering_.coordinate[j] + k) += load(kept_[j][k]);
+    add_kept(joints_[j]->dead_load(coordinates(x, j), loads), j, f);
     if (numbering_.location[j] >= 0 && coupling_of_[j] < 0) f(numbering_.location[j]) = location(x, j).value;
   }
   add_strand_forces(x, loads, f);
@@ -342,16 +341,16 @@ SmallVector Chain::force_at_end(const Arc& arc, const SmallVector& n, const bvp:
   return arc.carried() == 0 ? n : SmallVector(n + gradient.tail(arc.carried()));
 }
 
-void Chain::add_drag(const VectorXd& x, const Loads& loads, int link, VectorXd& f) const {
-  const int d = links_[link].arc->tangent();
-  for (const Side side : {Side::right, Side::left}) {
-    const int joint = side == Side::right ? link : link + 1;
-    const auto drag = joints_[joint]->drag(side, coordinates(x, joint), loaded(x, loads),
-                                           gradients_[link].segment(side == Side::right ? 0 : d, d));
-    if (!drag) continue;
-    for (std::size_t k = 0; k < kept_[joint].size(); ++k)
-      f(numbering_.coordinate[joint] + static_cast<Eigen::Index>(k)) += drag->value(kept_[joint][k]);
-  }
+std::optional<Joint::Drag> Chain::drag_at(const VectorXd& x, const Loads& loads, int link, Side side) const {
+  if (gauges_.travel == Travel::none) return std::nullopt;
+  const int d = links_[link].arc->tangent(), joint = side == Side::right ? link : link + 1;
+  return joints_[joint]->drag(side, coordinates(x, joint), loaded(x, loads),
+                              gradients_[link].segment(side == Side::right ? 0 : d, d));
+}
+
+void Chain::add_kept(const SmallVector& by_w, int joint, VectorXd& f) const {
+  for (std::size_t k = 0; k < kept_[joint].size(); ++k)
+    f(numbering_.coordinate[joint] + static_cast<Eigen::Index>(k)) += by_w(kept_[joint][k]);
 }
 
 double Chain::nodal_norm(const VectorXd& dx) const {

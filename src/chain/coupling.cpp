@@ -45,9 +45,7 @@ void Chain::add_strand_forces(const VectorXd& x, const Loads& loads, VectorXd& f
     const Crossing at = crossing(x, static_cast<int>(k));
     const double push = c.weight() * strand_force(x, static_cast<int>(k));
     const auto pull_on = [&](int joint, const contact::Centreline& strand, double sign) {
-      const contact::SmallVector by_w = sign * push * (strand.dr.transpose() * at.direction);
-      for (std::size_t i = 0; i < kept_[joint].size(); ++i)
-        f(numbering_.coordinate[joint] + static_cast<Eigen::Index>(i)) += by_w(kept_[joint][i]);
+      add_kept(sign * push * (strand.dr.transpose() * at.direction), joint, f);
     };
     pull_on(c.first, at.first, -1.0);
     pull_on(c.second, at.second, 1.0);

@@ -23,9 +23,7 @@ constexpr double nothing = 1e-8;
 
 Attachment Chain::attachment(Purpose purpose, const VectorXd& x, const Loads& loads, int joint,
                              Side side) const {
-  Attachment at = gauges_.travel == Travel::free
-                      ? joints_[joint]->attach(side, coordinates(x, joint), loaded(x, loads))
-                      : joints_[joint]->attach(side, coordinates(x, joint), loads);
+  Attachment at = joints_[joint]->attach(side, coordinates(x, joint), loaded(x, loads));
   const std::vector<int>& kept = this->kept(purpose, joint);
   const auto count = static_cast<Eigen::Index>(kept.size());
   if (count == at.dq.cols()) return at;
@@ -66,9 +64,7 @@ Chain::Local Chain::local(Purpose purpose, const Numbering& numbering, const Vec
   l.rows = l.columns;
   Eigen::Index k = 0;
   const auto coordinates_of = [&](const Attachment& at, int joint, Side side, int first_end) {
-    const auto drag = travels ? joints_[joint]->drag(side, coordinates(x, joint), loaded(x, loads),
-                                                     gradients_[link].segment(first_end, d))
-                              : std::nullopt;
+    const auto drag = travels ? drag_at(x, loads, link, side) : std::nullopt;
     for (Eigen::Index c = 0; c < at.dq.cols(); ++c, ++k) {
       l.dofs.push_back(numbering.coordinate[joint] + c);
       l.columns.col(k).segment(first_end, d) = at.dq.col(c);
@@ -155,13 +151,9 @@ void Chain::add_joint_terms(Purpose purpose, const Numbering& numbering, const V
     SmallMatrix bend = SmallMatrix::Zero(all, all);
     const SmallVector g = gradient.segment(side == Side::right ? 0 : d, d),
                       f = side == Side::right ? SmallVector(-n) : n_end;
-    if (gauges_.travel == Travel::free)
-      joints_[joint]->curvature(side, coordinates(x, joint), loaded(x, loads), g, f, bend);
-    else
-      joints_[joint]->curvature(side, coordinates(x, joint), loads, g, f, bend);
+    joints_[joint]->curvature(side, coordinates(x, joint), loaded(x, loads), g, f, bend);
     if (travels) {
-      if (const auto drag = joints_[joint]->drag(side, coordinates(x, joint), loaded(x, loads), g))
-        bend += drag->by_w;
+      if (const auto drag = drag_at(x, loads, link, side)) bend += drag->by_w;
       add_travel(x, loads, link, side, g, side == Side::right ? n : n_end, dense);
     }
     const std::vector<int>& kept = this->kept(purpose, joint);

@@ -8,18 +8,9 @@ using Eigen::Vector2d;
 
 namespace {
 
-Attachment sized(int configuration, int position, int coordinates) {
-  Attachment at;
-  at.q = Coordinates::Zero(configuration);
-  at.dq = SmallMatrix::Zero(configuration, coordinates);
-  at.x = SmallVector::Zero(position);
-  at.dx = SmallMatrix::Zero(position, coordinates);
-  return at;
-}
-
 /// A line on cylinder and plate on a joint with the coordinates (u₀, χ).
 Attachment lying_flat(const double* w) {
-  Attachment at = sized(1, 1, 2);
+  Attachment at = Attachment::zero(1, 1, 1, 2);
   at.q << w[1];
   at.dq(0, 1) = 1.0;
   at.x << w[0];
@@ -58,7 +49,7 @@ Stopped::Stopped(SurfacePointer line, SurfacePointer plate, bool in_the_middle)
       in_the_middle_(in_the_middle) {}
 
 Attachment Stopped::attach(Side, const double* w, const Loads&) const {
-  Attachment at = sized(2, 2, tangent());
+  Attachment at = Attachment::zero(2, 2, 2, tangent());
   at.q << w[1], w[2];
   at.dq.rightCols(2).setIdentity();
   at.x << w[0], height_;
@@ -121,7 +112,7 @@ LiftOff::LiftOff(Side flat_side, SurfacePointer line, SurfacePointer plate)
 
 Attachment LiftOff::attach(Side side, const double* w, const Loads&) const {
   if (side == flat_) return lying_flat(w);
-  Attachment at = sized(2, 2, tangent());
+  Attachment at = Attachment::zero(2, 2, 2, tangent());
   at.q << 0.0, w[1];
   at.dq(1, 1) = 1.0;
   at.x << w[0], height_;

@@ -12,18 +12,9 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-Attachment sized(int configuration, int tangent, int position, int coordinates) {
-  Attachment at;
-  at.q = Coordinates::Zero(configuration);
-  at.dq = SmallMatrix::Zero(tangent, coordinates);
-  at.x = SmallVector::Zero(position);
-  at.dx = SmallMatrix::Zero(position, coordinates);
-  return at;
-}
-
 /// A line arc on a joint with the coordinates (u, ψ, χ).
 Attachment lying(const double* w) {
-  Attachment at = sized(2, 2, 2, 4);
+  Attachment at = Attachment::zero(2, 2, 2, 4);
   at.q << w[2], w[3];
   at.dq.rightCols(2).setIdentity();
   at.x << w[0], w[1];
@@ -59,7 +50,7 @@ Eigen::Vector2d surface_coordinates(const rod::Quaternion& q, const rod::Quatern
 }
 
 Attachment Touch::attach(Side, const double* w, const Loads& loads) const {
-  Attachment at = sized(4, 3, 3, tangent());
+  Attachment at = Attachment::zero(4, 3, 3, tangent());
   const obstacle::Chart here = chart(w);
   at.q = frame_at(w + 2);
   at.dq.rightCols(3).setIdentity();
@@ -105,7 +96,7 @@ void Touch::retract(const double* w, const double* dw, double* out) const {
 Attachment Edge::attach(Side side, const double* w, const Loads& loads) const {
   constexpr int psi = 2;  // place of ψ among the coordinates
   if (side == line_) return lying(w);
-  Attachment at = sized(4, 3, 3, tangent());
+  Attachment at = Attachment::zero(4, 3, 3, tangent());
   const obstacle::Chart here = chart(w);
   at.q = surface_frame(surface_->base_frame(on_surface(w)), w[2], w[3]);
   const Eigen::Matrix3d spins = surface_spins(surface_->curvature(), w[2], w[3]);
@@ -185,7 +176,7 @@ void Edge::retract(const double* w, const double* dw, double* out) const {
 Attachment SurfaceSection::attach(Side, const double* w, const Loads&) const { return lying(w); }
 
 Attachment FreeSection::attach(Side, const double* w, const Loads&) const {
-  Attachment at = sized(4, 3, 3, tangent());
+  Attachment at = Attachment::zero(4, 3, 3, tangent());
   at.q = Eigen::Map<const Eigen::Vector4d>(w + 3);
   at.dq.rightCols(3).setIdentity();
   at.x = Eigen::Map<const Vector3d>(w);
@@ -238,7 +229,7 @@ void Pressed::place_curvature(const double* w, const Vector3d& f, SmallMatrix& o
 void Pressed::adopt(const Place& place, double* w) const { Edge(Side::left, 1.0, surface_).adopt(place, w); }
 
 Attachment End::attach(Side, const double* w, const Loads& loads) const {
-  Attachment at = sized(4, 3, 3, tangent());
+  Attachment at = Attachment::zero(4, 3, 3, tangent());
   if (clamped_) {
     const double a = arc_ == Side::left ? 0.5 * loads.angle : -0.5 * loads.angle;
     at.q = surface_frame(a, 0.0, 0.0);
@@ -257,7 +248,7 @@ void End::retract(const double* w, const double* dw, double* out) const {
 }
 
 Attachment FreeRodEnd::attach(Side, const double* w, const Loads& loads) const {
-  Attachment at = sized(4, 3, 3, tangent());
+  Attachment at = Attachment::zero(4, 3, 3, tangent());
   const double sign = arc_ == Side::left ? 1.0 : -1.0;  // the arc that ends here is the right half
   if (pinned_) {
     at.q = Eigen::Map<const Eigen::Vector4d>(w + under_thrust_);

@@ -37,13 +37,34 @@ scene::Scene standing(scene::Scene scene) {
   return scene;
 }
 
+/// Contacts, the places of joints and the meshes between them.
+struct Layout {
+  Topology topology;
+  std::vector<double> s;
+  std::vector<ArcMesh> meshes;
+};
+
+/// The state on these contacts, from a shape lifted by `lift`. @param p  of the keys; nothing: the scene's
+std::optional<Started> on_contacts(Layout layout, chain::Profile shape, double lift,
+                                   const scene::Scene& scene, const std::vector<std::string>& keys,
+                                   std::optional<Vector> p) {
+  for (Piece& piece : shape.pieces) piece.r.row(2).array() += lift;
+  choose_tails(layout.meshes, layout.topology, rod_of(scene, true), loads_of(scene), layout.s);
+  const auto problem = std::make_shared<RodProblem>(scene, true, layout.topology, layout.meshes, keys);
+  if (!p) p = problem->parameters();
+  Vector x = chain::guess_state(problem->chain(), layout.topology, problem->rod(), shape, layout.s);
+  const int used = problem->polish(x, *p);
+  if (used < 0) return std::nullopt;
+  return Started{problem, problem->refine(x, *p), *p, used};
+}
+
 double height_of_end(const Piece& tail, bool leftward) { return tail.r(2, leftward ? 0 : tail.s.size() - 1); }
 
 }  // namespace
 
 std::optional<Started> under_the_plate(const Started& still, const scene::Scene& scene, double friction,
                                        std::string& failure) {
-  chain::Profile shape = still.problem->profile(still.x, still.p);
+  const chain::Profile shape = still.problem->profile(still.x, still.p);
   std::vector<double> s = still.problem->joint_places(still.x, still.p, shape);
   Topology topology = still.problem->topology();
   std::vector<ArcMesh> meshes = still.problem->meshes();
@@ -73,16 +94,10 @@ std::optional<Started> under_the_plate(const Started& still, const scene::Scene&
     touched = true;
   }
   if (!touched) return failure = "no tail rises to the highest place", std::nullopt;
-  for (Piece& piece : shape.pieces) piece.r.row(2).array() += scene.plate->height - height;
-  const chain::RodKind rod = rod_of(scene, true);
-  choose_tails(meshes, topology, rod, loads_of(scene), s);
-  const auto problem = std::make_shared<RodProblem>(scene, true, topology, meshes,
-                                                    std::vector<std::string>{"cylinder.friction"});
-  Vector x = chain::guess_state(problem->chain(), topology, problem->rod(), shape, s);
-  const Vector p = Vector::Constant(1, friction);
-  const int used = problem->polish(x, p);
-  if (used < 0) return failure = "Newton did not converge under the plate", std::nullopt;
-  return Started{problem, problem->refine(x, p), p, used};
+  auto laid = on_contacts({topology, s, meshes}, shape, scene.plate->height - height, scene,
+                          {"cylinder.friction"}, Vector::Constant(1, friction));
+  if (!laid) failure = "Newton did not converge under the plate";
+  return laid;
 }
 
 Started flat_on_plate(const scene::Scene& scene, const std::vector<std::string>& keys) {
@@ -94,17 +109,12 @@ Started flat_on_plate(const scene::Scene& scene, const std::vector<std::string>&
   if (!line) return cold_start(scene, false, true, keys);
   topology.on.resize(topology.stretches.size() + 1);
   topology.on[1].flat = plate;
-  chain::Profile shape = still->problem->profile(still->x, still->p);
+  const chain::Profile shape = still->problem->profile(still->x, still->p);
   const std::vector<double> s = still->problem->joint_places(still->x, still->p, shape);
-  for (Piece& piece : shape.pieces) piece.r.row(2).array() += scene.plate->height;
-  std::vector<ArcMesh> meshes = still->problem->meshes();
-  choose_tails(meshes, topology, rod_of(scene, true), loads_of(scene), s);
-  const auto problem = std::make_shared<RodProblem>(scene, true, topology, meshes, keys);
-  Vector x = chain::guess_state(problem->chain(), topology, problem->rod(), shape, s);
-  const Vector p = problem->parameters();
-  const int used = problem->polish(x, p);
-  if (used < 0) throw NoEquilibrium("Newton did not converge on the flat coil on its plate");
-  return {problem, problem->refine(x, p), p, used};
+  auto laid =
+      on_contacts({topology, s, still->problem->meshes()}, shape, scene.plate->height, scene, keys, {});
+  if (!laid) throw NoEquilibrium("Newton did not converge on the flat coil on its plate");
+  return *laid;
 }
 
 std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector<std::string>& keys,

@@ -265,17 +265,21 @@ class Chain {
   /// Motion of the phase gauge as an increment: dense block, then interiors.
   VectorXd phase_motion(Purpose purpose, const Numbering& numbering, const VectorXd& x,
                         const Loads& loads) const;
-  /// The loads with ω, where it is an unknown.
-  Loads loaded(const VectorXd& x, const Loads& loads) const {
-    Loads all = loads;
-    if (gauges_.travel == Travel::free) all.travel = x(slide_at_ + 1);
-    return all;
+  /// The loads with ω, where it is an unknown; valid until the next call.
+  const Loads& loaded(const VectorXd& x, const Loads& loads) const {
+    if (gauges_.travel != Travel::free) return loads;
+    with_travel_ = loads;
+    with_travel_.travel = x(slide_at_ + 1);
+    return with_travel_;
   }
   /// n where an arc ends.
   static contact::SmallVector force_at_end(const Arc& arc, const contact::SmallVector& n,
                                            const bvp::EndsVector& gradient);
-  /// Adds what joints take of a line's own normal force; see Joint::drag.
-  void add_drag(const VectorXd& x, const Loads& loads, int link, VectorXd& f) const;
+  /// Adds a joint's terms to its balance equations, of the coordinates that vary.
+  void add_kept(const contact::SmallVector& by_w, int joint, VectorXd& f) const;
+  /// What the joint on one side of a link takes of a line's own normal force; see Joint::drag.
+  std::optional<Joint::Drag> drag_at(const VectorXd& x, const Loads& loads, int link,
+                                     contact::Side side) const;
   /// Change of a given pull's n with τ; zero for other links.
   VectorXd force_by_travel(const Loads& loads, int link) const;
   /// Adds the change with τ or ω of what a joint takes from the arc on one side to the travel's column.
@@ -397,6 +401,7 @@ class Chain {
   // Last factorisation.
   std::vector<Local> locals_;
   std::vector<bvp::EndsMatrix> condensed_;
+  mutable Loads with_travel_;
   mutable std::vector<bvp::EndsVector> gradients_;  ///< at the last residual or factorisation
   MatrixXd border_b_, border_c_;                    ///< reduced borders
   MatrixXd interior_b_, interior_c_;                ///< K⁻¹ b, K⁻¹ c on the interiors

@@ -50,6 +50,11 @@ struct Attachment {
   /// cylinder slips. forces × coordinates; nothing: dx.
   std::optional<SmallMatrix> tested = {};
   const SmallMatrix& test() const { return tested ? *tested : dx; }
+  /// Of these sizes, all zero.
+  static Attachment zero(int ambient, int tangent, int forces, int coordinates) {
+    return {Coordinates::Zero(ambient), SmallMatrix::Zero(tangent, coordinates), SmallVector::Zero(forces),
+            SmallMatrix::Zero(forces, coordinates)};
+  }
 };
 
 /// State of a rod at one place, from which a joint can take its coordinates.

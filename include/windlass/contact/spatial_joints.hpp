@@ -95,7 +95,6 @@ class Edge final : public VectorJoint {
   const obstacle::Surface* surface() const override { return surface_.get(); }
   Eigen::Vector2d on_surface(const double* w) const override { return {w[0], w[1]}; }
   void adopt(const Place& place, double* w) const override;
-  static double& twist(double* w) { return w[3]; }
 
  private:
   Side line_;
