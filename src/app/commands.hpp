@@ -100,6 +100,17 @@ struct SweepRequest {
   bool resume = false;            ///< keep the cases finished already
 };
 
+/// `pull`: force against displacement, from rest to the plateau.
+struct PullRequest {
+  CommonOptions common;
+  scene::Scene scene;
+  std::vector<double> meshes;  ///< [ρ]; empty: chosen by the tension
+  double to = 100.0;           ///< largest displacement [ρ]
+  double step = 0.1;           ///< largest displacement a step [ρ]
+  bool resume = false;
+  std::vector<std::string> formats = {"png", "svg", "pdf"};
+};
+
 /// `precision`: which methods reach which error at what cost.
 struct PrecisionRequest {
   CommonOptions common;
@@ -124,12 +135,13 @@ int run_export(const RunRequest& request);
 int run_figures(const FiguresRequest& request);
 int run_sweep(const SweepRequest& request);
 int run_precision(const PrecisionRequest& request);
+int run_pull(const PullRequest& request);
 
 /// Declares a subcommand; its callback stores the exit status in `status`.
 using AddCommand = void(CommandLine& app, CommonOptions& common, int& status);
 AddCommand add_solve, add_continue, add_diagram, add_locus, add_stability, add_verify, add_plot, add_report,
-    add_fit, add_figures, add_export, add_sweep, add_robustness, add_precision, add_scenes, add_manual,
-    add_completion;
+    add_fit, add_figures, add_export, add_sweep, add_pull, add_robustness, add_precision, add_scenes,
+    add_manual, add_completion;
 
 // ---- shared by the command files -------------------------------------------------------------------------------
 

@@ -52,7 +52,7 @@ int complain(const char* message, int status) {
 void check_command(const CommandLine& app, const std::string& word) {
   if (word.starts_with('-')) return;
   std::string known;
-  for (const char* planned : {"pull", "relax", "table"})
+  for (const char* planned : {"relax", "table"})
     if (word == planned) throw InputError(word + ": this command is not built yet");
   for (const CommandText& command : app.describe_commands()) {
     if (command.name == word) return;
@@ -74,8 +74,8 @@ int run(std::vector<std::string> arguments) {
   CommonOptions common;
   int status = done;
   for (AddCommand* add : {add_solve, add_continue, add_diagram, add_locus, add_stability, add_verify,
-                          add_plot, add_report, add_fit, add_figures, add_export, add_sweep, add_robustness,
-                          add_precision, add_scenes, add_manual, add_completion})
+                          add_plot, add_report, add_fit, add_figures, add_export, add_sweep, add_pull,
+                          add_robustness, add_precision, add_scenes, add_manual, add_completion})
     add(app, common, status);
 
   if (arguments.empty()) {

@@ -31,14 +31,6 @@ void add_stability(Solution& solution, const scene::Scene& scene) {
   solution.seconds_total = solution.seconds_solve + solution.seconds_stability;
 }
 
-/// A dragged state's index is known from its spectrum only.
-void add_indices(equilibrium::Equilibria& found, const scene::Scene& scene) {
-  if (!found.answer.dragged || !found.answer.stability) return;
-  stability::SpectrumSolver solver;
-  for (equilibrium::StateSummary& state : found.states)
-    if (state.index < 0) state.index = spectrum_of(scene, state.restart, 2, false, solver).index;
-}
-
 constexpr double degrees = 180.0 / M_PI;
 
 /// A quantity without dimension and, for a material scene, with its unit beside it.
@@ -214,7 +206,7 @@ int run_solve(const SolveRequest& request) {
     const Heartbeat heartbeat(scene.name + ": searching the equilibrium", request.common.quiet);
     equilibrium::Equilibria all = equilibrium::equilibria(request.scene);
     add_stability(all.answer, scene);
-    add_indices(all, scene);
+    if (all.answer.dragged && all.answer.stability) add_indices(all.states, scene);
     return all;
   }();
   const Solution& solution = found.answer;

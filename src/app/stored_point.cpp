@@ -23,6 +23,12 @@ equilibrium::Stability spectrum_of(const scene::Scene& scene, const equilibrium:
   return stability::analyse(*problem, restart.state, problem->parameters(), count, modes, solver);
 }
 
+void add_indices(std::span<equilibrium::StateSummary> states, const scene::Scene& scene) {
+  stability::SpectrumSolver solver;
+  for (equilibrium::StateSummary& state : states)
+    if (state.index < 0) state.index = spectrum_of(scene, state.restart, 2, false, solver).index;
+}
+
 equilibrium::Stability spectrum_of_point(const scene::Scene& scene, const output::Run& run,
                                          std::size_t position, int count, stability::SpectrumSolver& solver) {
   const equilibrium::Solution stored = run.points.get(position);

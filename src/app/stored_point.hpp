@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+
+#include "windlass/equilibrium/equilibria.hpp"
 #include "windlass/output/run_folder.hpp"
 #include "windlass/scene/scene.hpp"
 #include "windlass/stability/spectrum.hpp"
@@ -12,6 +15,9 @@ scene::Scene scene_of_point(scene::Scene scene, const output::Run& run, std::siz
 /// Lowest eigenvalues, and with `modes` their modes, of a state that can be restarted. @throws as stability::analyse
 equilibrium::Stability spectrum_of(const scene::Scene& scene, const equilibrium::Restart& restart, int count,
                                    bool modes, stability::SpectrumSolver& solver);
+
+/// Indices of dragged states, which are known from their spectra only. @throws as stability::analyse
+void add_indices(std::span<equilibrium::StateSummary> states, const scene::Scene& scene);
 
 /// The stored point's lowest eigenvalues and their modes. @throws as stability::analyse
 equilibrium::Stability spectrum_of_point(const scene::Scene& scene, const output::Run& run,

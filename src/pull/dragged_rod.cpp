@@ -6,6 +6,7 @@
 
 #include "windlass/discrete_rod/bending_density.hpp"
 #include "windlass/discrete_rod/strand_pairs.hpp"
+#include "windlass/pull/rounded.hpp"
 
 namespace windlass::pull {
 
@@ -37,18 +38,6 @@ struct DraggedRod::Place {
   Vector2d slip = Vector2d::Zero();  ///< with that of the step
   bool sticks = false;
 };
-
-namespace {
-
-/// [d]₊ with its kink rounded over ±width: value and derivative.
-std::pair<double, double> rounded(double d, double width) {
-  if (d <= -width) return {0.0, 0.0};
-  if (d >= width) return {d, 1.0};
-  const double x = (d + width) / (2.0 * width);
-  return {width * x * x, x};
-}
-
-}  // namespace
 
 DraggedRod::DraggedRod(Spline spline, const Setting& given, double h)
     : setting(given),
@@ -125,7 +114,8 @@ void DraggedRod::add_shape(Local& local) const {
       local.matrix.block<3, 1>(3 * a, 12) += weight * first(a) * tangent;
       for (int b = 0; b < 4; ++b)
         local.matrix.block<3, 3>(3 * a, 3 * b) +=
-            weight * (first(a) * first(b) * by_both + second(a) * second(b) * bending.hessian.bottomRightCorner<3, 3>() +
+            weight * (first(a) * first(b) * by_both +
+                      second(a) * second(b) * bending.hessian.bottomRightCorner<3, 3>() +
                       first(a) * second(b) * bending.hessian.topRightCorner<3, 3>() +
                       second(a) * first(b) * bending.hessian.bottomLeftCorner<3, 3>());
     }

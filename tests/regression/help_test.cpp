@@ -13,7 +13,7 @@ BOOST_AUTO_TEST_SUITE(help)
 BOOST_AUTO_TEST_CASE(every_command_has_a_help_text) {
   for (const char* command :
        {"solve", "continue", "diagram", "locus", "stability", "verify", "plot", "report", "fit", "figures",
-        "export", "sweep", "robustness", "precision", "scenes", "manual", "completion"}) {
+        "export", "sweep", "pull", "robustness", "precision", "scenes", "manual", "completion"}) {
     const Outcome outcome = run_program({command, "--help"});
     BOOST_TEST(outcome.status == 0, command);
     BOOST_TEST(outcome.err == "");
