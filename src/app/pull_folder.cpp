@@ -93,6 +93,7 @@ PullFolder::Found PullFolder::prepare(const std::string& scene, bool force, bool
     return stored.contains("outcome") ? Found::over : Found::begun;
   }
   const bool holds = fs::exists(folder_) && (!fs::is_directory(folder_) || !fs::is_empty(folder_));
+  if (resume && !holds) throw InputError("--resume: " + folder_.string() + " holds no pull");
   if (holds && !(force && fs::is_directory(folder_)))
     throw InputError(resume ? "--resume: " + folder_.string() + " holds no pull"
                             : folder_.string() + ": is not empty; --force replaces a pull, --resume goes on");

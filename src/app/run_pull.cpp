@@ -126,6 +126,9 @@ class PullRun {
                                 mesh.h, one.state().displacement));
       }
       mesh.rows.push_back(*row);
+      if (row->at.R_tot == 0.0)
+        return fail(fmt::format("h = {:g}: the rod has come off the cylinder at U = {:.6g}", mesh.h,
+                                row->displacement));
       at = pull::plateau(mesh.rows, options_);
       if (row->jumped)
         progress.note(fmt::format("h = {:g}: the rod jumps at U = {:.6g}", mesh.h, row->displacement));
@@ -142,7 +145,7 @@ class PullRun {
     return true;
   }
 
-  static constexpr std::chrono::seconds pause{1};  // between two checkpoints
+  static constexpr std::chrono::milliseconds pause{250};  // between two checkpoints
 
   const PullRequest& request_;
   std::vector<double> heights_;

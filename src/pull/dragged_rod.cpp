@@ -198,7 +198,7 @@ Measured DraggedRod::measured(const Vector& u, const Memory& last, const Step& s
   Measured out;
   out.z_low = HUGE_VAL, out.z_high = -HUGE_VAL;
   if (setting.blocked) out.pull_difference = u(size() - 1);
-  double stuck = 0.0;
+  double stuck = 0.0, moved = 0.0;
   for (int e = 0; e < spline_.elements(); ++e) {
     const Local local{e, spline_.length(e), Spline::controls(u, e), 0.0, false};
     for (int q = 0; q < Quadrature::points; ++q) {
@@ -214,10 +214,10 @@ Measured DraggedRod::measured(const Vector& u, const Memory& last, const Step& s
       if (place.pressure <= 0.0) continue;
       const Vector3d tangent = (local.controls * cubic_weights(Quadrature::place[here], 1)).normalized();
       const Vector3d way = place.r - last.place.col(Quadrature::points * e + q);
-      out.moved = std::max(out.moved, (way - way.dot(tangent) * tangent).norm());
+      moved += weight * place.pressure * (way - way.dot(tangent) * tangent).norm();
     }
   }
-  if (out.R_tot > 0.0) out.sticking = stuck / out.R_tot;
+  if (out.R_tot > 0.0) out.sticking = stuck / out.R_tot, out.moved = moved / out.R_tot;
   return out;
 }
 

@@ -29,7 +29,7 @@ std::string force_panel(const PictureRequest& request, double reach) {
   for (const double F0 : request.steady)
     if (F0 < 2.0 * most) most = std::max(most, F0);  // far ones would press the curve down
   const double top = 1.15 * most * request.force;
-  std::string text = output::margins(0.12, request.newtons ? 0.87 : 0.96, 0.40, 0.91);
+  std::string text = output::margins(0.12, request.newtons ? 0.87 : 0.90, 0.40, 0.91);
   text += fmt::format("  set xrange [0:{}]\n  set yrange [0:{}]\n", reach, top);
   text += "  set format x ''\n  set ylabel 'force on the cylinder F  [EI/ρ²]'\n  set key bottom right\n";
   if (request.newtons)
@@ -52,7 +52,7 @@ std::string force_panel(const PictureRequest& request, double reach) {
 }
 
 std::string state_panel(const PictureRequest& request) {
-  std::string text = output::margins(0.12, request.newtons ? 0.87 : 0.96, 0.11, 0.36);
+  std::string text = output::margins(0.12, request.newtons ? 0.87 : 0.90, 0.11, 0.36);
   const std::size_t finest = request.meshes.size() - 1;
   text += "  unset y2tics\n  unset y2label\n  set format x '%g'\n  set xlabel 'displacement U  [ρ]'\n";
   text += "  set yrange [*:*]\n  set ylabel 'lowest z  [ρ]'\n  set ytics nomirror\n";

@@ -91,16 +91,17 @@ bool Pull::start(const equilibrium::Solution& frictionless) {
   for (double h = std::max(coarse, h_);; h = std::max(ratio * h, h_)) {
     Pull level(rod_.setting, half_length_, h, options_);
     const OpenSpline& spline = level.rod_.spline();
-    VectorXd unknowns = level.rod_.unknowns(before ? resampled(*before, controls, spline)
-                                                   : laid_along(spline, frictionless));
+    VectorXd unknowns =
+        level.rod_.unknowns(before ? resampled(*before, controls, spline) : laid_along(spline, frictionless));
     if (!level.relax(unknowns)) return false;
     controls = unknowns.head(spline.size());
     before = spline;
     if (h > h_) continue;
     const Measured at = rod_.measured(unknowns, rod_.fresh_memory(unknowns), {0.0, 0.0, false});
-    for (Eigen::Index k = 2; k < spline.size(); k += 3) unknowns(k) += rod_.setting.plate - at.z_high;
-    state_ = {unknowns, unknowns, rod_.fresh_memory(unknowns).slip, 0.0, 0.0,
-              std::min(rod_.setting.coulomb.slip, options_.step)};
+    for (Eigen::Index k = 2; k < spline.size(); k += 3)
+      unknowns(k) += rod_.setting.plate - rod_.reach() - at.z_high;
+    state_ = {unknowns, unknowns, rod_.fresh_memory(unknowns).slip,
+              0.0,      0.0,      std::min(rod_.setting.coulomb.slip, options_.step)};
     return true;
   }
 }
@@ -151,14 +152,12 @@ std::optional<Row> Pull::advance() {
   for (double length = state_.next_step; length > shortest; length *= cut) {
     const Step step{length, 0.0, true};
     VectorXd unknowns = state_.unknowns;
-    if (state_.last_step > 0.0)
-      unknowns += length / state_.last_step * (state_.unknowns - state_.before);
+    if (state_.last_step > 0.0) unknowns += length / state_.last_step * (state_.unknowns - state_.before);
     row.iterations = solver_->solve(last, step, unknowns);
     if (row.iterations < 0) continue;
     row.at = rod_.measured(unknowns, last, step);
     accept(unknowns, last, step);
-    state_.next_step =
-        row.iterations <= few_iterations ? std::min(options_.step, growth * length) : length;
+    state_.next_step = row.iterations <= few_iterations ? std::min(options_.step, growth * length) : length;
     row.displacement = state_.displacement;
     row.step = length;
     return row;
@@ -176,12 +175,14 @@ std::optional<Row> Pull::advance() {
 
 std::optional<Plateau> plateau(std::span<const Row> rows, const Options& options) {
   if (rows.empty()) return std::nullopt;
-  constexpr double at_rest = 0.02;  // of the cylinder's speed; a chord of travel along a bend leaves half its sag
+  constexpr double at_rest =
+      0.02;  // of the cylinder's speed; a chord of travel along a bend leaves half its sag
   constexpr double stuck = 1e-6;
   const double end = rows.back().displacement;
   Plateau now, earlier;
   double covered = 0.0, covered_earlier = 0.0;
-  for (auto row = rows.rbegin(); row != rows.rend() && row->displacement > end - 2.0 * options.window; ++row) {
+  for (auto row = rows.rbegin(); row != rows.rend() && row->displacement > end - 2.0 * options.window;
+       ++row) {
     if (row->jumped || row->at.sticking > stuck || row->at.moved > at_rest * row->step) return std::nullopt;
     const bool late = row->displacement > end - options.window;
     Plateau& mean = late ? now : earlier;

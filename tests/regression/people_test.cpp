@@ -197,7 +197,7 @@ BOOST_AUTO_TEST_CASE(damaged_run_folders) {
 }
 
 BOOST_AUTO_TEST_CASE(commands_to_come) {
-  for (const char* command : {"pull", "relax", "table"}) {
+  for (const char* command : {"relax", "table"}) {
     const Outcome outcome = run_program({command, "x.toml"});
     BOOST_TEST(outcome.status == 1);
     BOOST_TEST(outcome.err == std::string("windlass: ") + command + ": this command is not built yet\n");

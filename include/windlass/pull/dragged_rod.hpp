@@ -23,20 +23,20 @@ struct Memory {
 
 /// One step: what is at work in it.
 struct Step {
-  double advance = 0.0;   ///< of the cylinder along its axis [ρ]
-  double damping = 0.0;   ///< force per length against motion since the last step [EI/ρ⁴]
-  bool dragged = true;    ///< friction and plate; else neither, for the relaxed start
+  double advance = 0.0;  ///< of the cylinder along its axis [ρ]
+  double damping = 0.0;  ///< force per length against motion since the last step [EI/ρ⁴]
+  bool dragged = true;   ///< friction and plate; else neither, for the relaxed start
 };
 
 /// Forces and places at the end of a step.
 struct Measured {
-  double drag = 0.0;        ///< F, of the cylinder on the rod along the axis [EI/ρ²]
-  double plate_force = 0.0; ///< [EI/ρ²]
-  double R_tot = 0.0;       ///< ∫ p ds [EI/ρ²]
-  double sticking = 0.0;    ///< part of R_tot inside the cone of friction
-  double pull_difference = 0.0;  ///< τ [EI/ρ²]
+  double drag = 0.0;                 ///< F, of the cylinder on the rod along the axis [EI/ρ²]
+  double plate_force = 0.0;          ///< [EI/ρ²]
+  double R_tot = 0.0;                ///< ∫ p ds [EI/ρ²]
+  double sticking = 0.0;             ///< part of R_tot inside the cone of friction
+  double pull_difference = 0.0;      ///< τ [EI/ρ²]
   double z_low = 0.0, z_high = 0.0;  ///< [ρ]
-  double moved = 0.0;       ///< largest motion in space across the rod of what is in contact [ρ]
+  double moved = 0.0;                ///< mean motion, weighed by pressure, of the contact across the rod [ρ]
 };
 
 /// Balance of the whole rod at the end of a step, a system for Newton's method.
@@ -63,11 +63,14 @@ class DraggedRod {
   Setting setting;
 
   const Spline& spline() const { return spline_; }
+  /// Distance from an obstacle within which its bed begins to push [ρ].
+  double reach() const { return rounding_; }
   Eigen::Index size() const { return spline_.size() + spline_.elements() + (setting.blocked ? 1 : 0); }
   /// Unknowns of a shape under the pulls alone.
   Vector unknowns(const Vector& controls) const;
   /// Residual, and with `matrix` its derivative; the pattern is always the same.
-  void evaluate(const Vector& u, const Memory& last, const Step& step, Vector& residual, Sparse* matrix) const;
+  void evaluate(const Vector& u, const Memory& last, const Step& step, Vector& residual,
+                Sparse* matrix) const;
   /// @param u  end of the step that begins at `last`
   Measured measured(const Vector& u, const Memory& last, const Step& step) const;
   /// What the next step begins from. @param fresh  forgets all slip

@@ -12,9 +12,9 @@ namespace windlass::pull {
 
 /// How a pull is stepped, and when it is on its plateau. Lengths in ρ.
 struct Options {
-  double step = 0.1;      ///< largest displacement a step
-  double window = 0.5;    ///< displacement over which forces are averaged
-  double steady = 2e-5;   ///< relative change of F from one window to the next on a plateau
+  double step = 0.1;     ///< largest displacement a step
+  double window = 0.5;   ///< displacement over which forces are averaged
+  double steady = 1e-4;  ///< relative change of F from one window to the next on a plateau
   /// @throws std::invalid_argument naming the bound violated
   void validate() const;
 };
