@@ -108,8 +108,8 @@ void print(const PullResult& result, const scene::Scene& scene) {
   if (result.limit) {
     fmt::print("  {:<12} F = {:.8g}{}, R_tot = {:.8g}", "plateau", result.limit->at.drag * result.force,
                newtons(result.limit->at.drag * result.force, scene), result.limit->at.R_tot * result.force);
-    if (result.meshes.size() > 1)
-      fmt::print(", extrapolated with h³ (meshes within {:.1e} of it)", result.limit->misfit);
+    if (result.meshes.size() > 1) fmt::print(", extrapolated with h³");
+    if (result.meshes.size() > 2) fmt::print(" (meshes off it by up to {:.1e})", result.limit->misfit);
     fmt::print("\n");
     if (!result.limit->one_state())
       fmt::print("  {:<12} the meshes do not end on one state: the limit means nothing\n", "");

@@ -210,6 +210,7 @@ int run_pull(const PullRequest& request) {
     print(result, scene);
   std::fflush(stdout);
   if (!result.failure.empty()) fmt::print(stderr, "windlass: {}\n", result.failure);
+  if (result.meshes.front().rows.empty()) return not_finished;  // nothing to draw
   const auto pictures = draw(request, result, folder.path());
   if (!request.common.json && !request.common.quiet)
     for (const auto& picture : pictures) fmt::print("{}\n", picture.string());

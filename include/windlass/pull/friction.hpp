@@ -10,7 +10,7 @@ namespace windlass::pull {
 ///     q = −mu p φ(|g|/δ) g/|g|,   φ(x) = 1 − [1 − x]₊, its corner rounded (`rounded`) over 1 ± w,
 ///
 /// g the slip of the rod against the cylinder that has not been forgotten. A step adds its own slip, and what lies beyond
-/// (1 + w) δ is forgotten (return to the cone, [J. C. Simo, T. A. Laursen, Comput. Struct. 42 (1992) 97]). So |q| <= mu p
+/// (1 + w) δ is forgotten (return to the cone, PHYSICS, "Pull from rest"). So |q| <= mu p
 /// always, |q| = mu p while the place slips, and q opposes the slip once that is long against δ.
 struct Coulomb {
   double friction = 0.0;  ///< mu
