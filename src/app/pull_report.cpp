@@ -46,6 +46,9 @@ void print_selection(const PullResult& result, const scene::Scene& scene) {
              state ? in_words(result.states[*state], scene)
                    : "the plateau is none of the steady states that `solve` finds; the nearest");
   if (!state) fmt::print("  {:<12} {}\n", "", in_words(result.states[nearest], scene));
+  if (!state) fmt::print("  {:<12} nor was it found on exact arcs: {}\n", "", result.not_polished);
+  if (result.own)
+    fmt::print("  {:<12} not among those that `solve` finds: found on exact arcs from the plateau\n", "");
   fmt::print("  {:<12} F/F0 - 1 = {:.2e}\n", "difference", difference);
 }
 
@@ -97,6 +100,7 @@ ordered_json to_json(const PullResult& result, const scene::Scene& scene) {
   if (result.selection) json["difference"] = result.selection->difference;
   json["states"] = ordered_json::array();
   for (const StateSummary& state : result.states) json["states"].push_back(to_json(state));
+  if (result.own) json["selected_by"] = "plateau";
   if (!result.no_states.empty()) json["no_states"] = result.no_states;
   if (!result.failure.empty()) json["failure"] = result.failure;
   return json;

@@ -15,6 +15,8 @@ struct PullResult {
   std::vector<PulledMesh> meshes;                      ///< natural units
   std::vector<std::optional<pull::Plateau>> plateaus;  ///< of each
   std::vector<equilibrium::StateSummary> states;       ///< steady ones, as given
+  bool own = false;                                    ///< the last of them was found from the plateau
+  std::string not_polished;                            ///< why it was not, where it was tried
   std::string no_states;                               ///< why there are none
   std::optional<pull::Limit> limit;                    ///< natural units
   std::optional<pull::Selection> selection;            ///< of `states`

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
@@ -93,7 +94,9 @@ class PullRun {
     Progress progress(request_.common.quiet);
     for (std::size_t k = first; k < heights_.size(); ++k) {
       if (k == result_.meshes.size()) result_.meshes.push_back({heights_[k], {}});
-      pull::Pull one(pull::setting_of(scene), 0.5 * scene.rod.length, heights_[k], options_);
+      last_ = std::make_unique<pull::Pull>(pull::setting_of(scene), 0.5 * scene.rod.length, heights_[k],
+                                           options_);
+      pull::Pull& one = *last_;
       if (state)
         one.resume(*std::exchange(state, std::nullopt));
       else if (!one.start(start))
@@ -102,6 +105,9 @@ class PullRun {
     }
     return true;
   }
+
+  /// The pull on the finest mesh.
+  const pull::Pull& last() const { return *last_; }
 
  private:
   bool fail(std::string why) {
@@ -152,8 +158,22 @@ class PullRun {
   const PullFolder& folder_;
   PullResult& result_;
   pull::Options options_;
+  std::unique_ptr<pull::Pull> last_;
   Clock::time_point saved_ = Clock::now();
 };
+
+/// Among the states of `solve`; where it is none of them, the plateau's own on exact arcs joins them if there is one.
+void select(const PullRequest& request, const pull::Pull& finest, PullResult& result) {
+  result.selection = pull::selected(result.limit->at, result.states, result.force);
+  if ((result.selection && result.selection->state) || !result.limit->one_state()) return;
+  const auto own =
+      pull::polished(finest, result.limit->at, scene::natural(request.scene), result.not_polished);
+  if (!own) return;
+  result.states.push_back(*own);
+  add_indices(std::span(result.states).last(1), equilibrium::determinate(request.scene));
+  result.own = true;
+  result.selection = pull::selected(result.limit->at, result.states, result.force);
+}
 
 std::vector<std::filesystem::path> draw(const PullRequest& request, const PullResult& result,
                                         const std::filesystem::path& folder) {
@@ -198,10 +218,11 @@ int run_pull(const PullRequest& request) {
   std::optional<PullFolder::Checkpoint> checkpoint;
   if (found == PullFolder::Found::begun) checkpoint = folder.read();
   find_states(request, result);
-  const bool complete = PullRun(request, meshes, folder, result).run(std::move(checkpoint));
+  PullRun run(request, meshes, folder, result);
+  const bool complete = run.run(std::move(checkpoint));
   if (!complete && result.failure.empty()) return interrupted;
   if (complete) result.limit = pull::limit_of(result.outcomes());
-  if (result.limit) result.selection = pull::selected(result.limit->at, result.states, result.force);
+  if (result.limit) select(request, run.last(), result);
   const nlohmann::ordered_json json = to_json(result, scene);
   if (complete) folder.finish(result.meshes, json);
   if (request.common.json)

@@ -7,6 +7,7 @@
 #include <continuation/diagram.hpp>
 
 #include "attempt.hpp"
+#include "entry.hpp"
 #include "harvest.hpp"
 #include "windlass/equilibrium/search.hpp"
 
@@ -58,6 +59,30 @@ std::optional<Started> on_contacts(Layout layout, chain::Profile shape, double l
   return Started{problem, problem->refine(x, *p), *p, used};
 }
 
+/// Contacts in their order along the rod, free between them and beyond.
+Layout layout_of(const std::vector<Pressing>& pressing, const contact::Loads& loads) {
+  Layout out;
+  out.topology.half = false;
+  out.topology.on = {{}};
+  out.s = {-loads.half_length};
+  const auto cut = [&](double s, Stretch behind, int obstacle) {
+    out.topology.stretches.push_back(behind);
+    out.topology.on.push_back(chain::Seat{obstacle});
+    out.s.push_back(s);
+  };
+  Stretch behind = Stretch::tail;
+  for (const Pressing& one : pressing) {
+    cut(one.begin, behind, one.obstacle);
+    if (one.line()) cut(one.end, Stretch::line, one.obstacle);
+    behind = Stretch::gap;
+  }
+  cut(loads.half_length, Stretch::tail, 0);
+  for (std::size_t i = 0; i < out.topology.stretches.size(); ++i)
+    out.meshes.push_back(first_mesh(out.topology.stretches[i], loads, out.s[i + 1] - out.s[i]));
+  out.meshes.front() = reversed(out.meshes.front());  // fine where it leaves the contact
+  return out;
+}
+
 double height_of_end(const Piece& tail, bool leftward) { return tail.r(2, leftward ? 0 : tail.s.size() - 1); }
 
 }  // namespace
@@ -98,6 +123,26 @@ std::optional<Started> under_the_plate(const Started& still, const scene::Scene&
                           {"cylinder.friction"}, Vector::Constant(1, friction));
   if (!laid) failure = "Newton did not converge under the plate";
   return laid;
+}
+
+std::optional<Started> dragged_on(const scene::Scene& scene, const chain::Profile& shape,
+                                  const std::vector<Pressing>& pressing, const std::vector<std::string>& keys,
+                                  std::string& failure) {
+  Layout layout = layout_of(pressing, loads_of(scene));
+  const std::string contacts = layout.topology.text();
+  const std::optional<Started> laid = on_contacts(std::move(layout), shape, 0.0, scene, keys, {});
+  if (!laid) return failure = "Newton did not converge on the contacts " + contacts, std::nullopt;
+  Entry found{laid->problem, laid->x, laid->p};
+  int iterations = laid->newton_iterations;
+  constexpr int most = 20;
+  for (int k = 0; k < 3 && mend(found, most, false, iterations); ++k) {
+    found.x = found.problem->refine(found.x, found.p);
+    const chain::Profile fine = found.problem->profile(found.x, found.p);
+    if (!most_violated(contact_events(fine, found.problem->topology()), fine.unit_length))
+      return Started{found.problem, found.x, found.p, iterations};
+  }
+  failure = "no contacts were found that hold all, last " + found.problem->topology().text();
+  return std::nullopt;
 }
 
 Started flat_on_plate(const scene::Scene& scene, const std::vector<std::string>& keys) {

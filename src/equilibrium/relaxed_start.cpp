@@ -8,8 +8,7 @@
 #include "strip.hpp"
 #include "windlass/contact/spatial_joints.hpp"
 #include "windlass/discrete_rod/thick_contacts.hpp"
-#include "windlass/obstacle/cylinder.hpp"
-#include "windlass/rod/quaternion.hpp"
+#include "windlass/equilibrium/curve_piece.hpp"
 
 /// Discovery of contacts between strands: a discrete rod with smooth contact is relaxed by TAO, its contacts are read off, and
 /// the state is polished on exact arcs.
@@ -41,44 +40,27 @@ discrete_rod::ThickRod thick_rod_of(const scene::Scene& scene, const contact::Lo
   return thick;
 }
 
-/// The relaxed rod as a curve. Without torsion (its ends are free of it): frames are carried along it, the moment is that of
-/// bending; the force at a place is the pull and what presses on the rod between there and the end.
+/// The relaxed rod as a curve.
 chain::Profile profile_of(const discrete_rod::ThickRod& thick, const SplineRod& rod,
                           const discrete_rod::ThickMinimum& minimum, const ThickContacts& contacts,
                           double unit) {
   constexpr int samples = 4;  // an element
-  const Eigen::Index count = samples * rod.elements() + 1;
-  chain::Piece piece;
-  piece.s.resize(count), piece.angle.setZero(count), piece.heading.setZero(count), piece.p.setZero(count);
-  piece.inclination.setZero(count);
-  piece.r.resize(3, count), piece.n.resize(3, count), piece.m.resize(3, count), piece.q.resize(4, count);
-  Vector3d before = Vector3d::UnitX();
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const int e = std::min(static_cast<int>(k / samples), rod.elements() - 1);
+  const int count = samples * rod.elements() + 1;
+  std::vector<CurvePlace> places;
+  for (int k = 0; k < count; ++k) {
+    const int e = std::min(k / samples, rod.elements() - 1);
     const double t = static_cast<double>(k - samples * e) / samples, h = rod.length(e);
     const SplineRod::Controls controls = rod.controls(minimum.x, e);
-    const Vector3d slope = controls * discrete_rod::cubic_weights(t, 1) / h, tangent = slope.normalized(),
-                   bend = controls * discrete_rod::cubic_weights(t, 2) / (h * h);
-    piece.s(k) = rod.knot(e) + t * h;
-    piece.r.col(k) = controls * discrete_rod::cubic_weights(t, 0);
-    piece.m.col(k) = tangent.cross(bend) / slope.squaredNorm();
-    if (k == 0) {
-      piece.q.col(k) = contact::spatial::surface_frame(0.0, std::atan2(tangent(2), tangent(0)), 0.0);
-    } else {
-      const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(before, tangent);
-      piece.q.col(k) =
-          rod::product(rod::Quaternion(turn.w(), turn.x(), turn.y(), turn.z()), piece.q.col(k - 1));
-      const double angle = obstacle::Cylinder::angle(piece.r.col(k));
-      piece.angle(k) = piece.angle(k - 1) + std::remainder(angle - piece.angle(k - 1), 2.0 * M_PI);
-    }
-    before = tangent;
+    places.push_back({rod.knot(e) + t * h, controls * discrete_rod::cubic_weights(t, 0),
+                      controls * discrete_rod::cubic_weights(t, 1) / h,
+                      controls * discrete_rod::cubic_weights(t, 2) / (h * h)});
   }
-  Vector3d n = thick.tension * Vector3d(std::cos(0.5 * thick.angle), std::sin(0.5 * thick.angle), 0.0);
-  auto load = contacts.loads.rbegin();
-  for (Eigen::Index k = count; k-- > 0;) {
-    for (; load != contacts.loads.rend() && load->s > piece.s(k); ++load) n += load->force;
-    piece.n.col(k) = n;
-  }
+  const Vector3d tangent = places.front().slope.normalized();
+  const Vector3d pull =
+      thick.tension * Vector3d(std::cos(0.5 * thick.angle), std::sin(0.5 * thick.angle), 0.0);
+  chain::Piece piece =
+      without_torsion(places, contact::spatial::surface_frame(0.0, std::atan2(tangent(2), tangent(0)), 0.0),
+                      pull, contacts.loads);
   piece.s *= unit, piece.r *= unit, piece.m /= unit, piece.n /= unit * unit;
   chain::Profile out;
   if (!thick.cylinder) piece.r.row(1).array() -= piece.r(1, count - 1);  // the ends lie on e_x

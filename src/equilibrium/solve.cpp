@@ -266,6 +266,12 @@ Equilibria on_rung(const scene::Scene& scene) {
 
 }  // namespace
 
+StateSummary summarised(const Started& state, const scene::Scene& natural) {
+  Started own = state;
+  const Solution solution = finish(own, "");
+  return summary_of(solution, natural, own.problem->total_index(own.x, own.p));
+}
+
 Equilibria equilibria(const scene::Scene& asked) {
   const scene::Scene scene = scene::natural(determinate(asked));
   const auto begin = std::chrono::steady_clock::now();

@@ -221,6 +221,20 @@ Measured DraggedRod::measured(const Vector& u, const Memory& last, const Step& s
   return out;
 }
 
+std::vector<PlaceLoad> DraggedRod::loads(const Vector& u, const Memory& last, const Step& step) const {
+  std::vector<PlaceLoad> out;
+  for (int e = 0; e < spline_.elements(); ++e) {
+    const Local local{e, spline_.length(e), Spline::controls(u, e), 0.0, false};
+    for (int q = 0; q < Quadrature::points; ++q) {
+      const auto here = static_cast<std::size_t>(q);
+      const Place place = at(local, q, last, step);
+      out.push_back({spline_.knot(e) + Quadrature::place[here] * local.length,
+                     Quadrature::weight[here] * local.length * place.force, place.pressure, place.plate});
+    }
+  }
+  return out;
+}
+
 Memory DraggedRod::memory(const Vector& u, const Memory& last, const Step& step) const {
   Memory out = fresh_memory(u);
   for (int e = 0; e < spline_.elements(); ++e) {

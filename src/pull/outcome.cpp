@@ -9,8 +9,7 @@ namespace windlass::pull {
 
 namespace {
 
-constexpr int order = 3;       // in h, of the beds
-constexpr double same = 1e-3;  // relative, of forces of one state
+constexpr int order = 3;  // in h, of the beds
 
 }  // namespace
 
@@ -40,7 +39,7 @@ std::optional<Selection> selected(const Plateau& at, std::span<const equilibrium
     const double difference = at.drag * force / *states[k].F0 - 1.0;
     if (out && std::abs(out->difference) <= std::abs(difference)) continue;
     const bool agree =
-        std::abs(difference) < same && std::abs(at.R_tot * force / states[k].R_tot - 1.0) < same;
+        std::abs(difference) < same_state && std::abs(at.R_tot * force / states[k].R_tot - 1.0) < same_state;
     out = Selection{agree ? std::optional(k) : std::nullopt, k, difference};
   }
   return out;

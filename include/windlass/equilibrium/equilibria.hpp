@@ -10,6 +10,8 @@
 /// The equilibria under a scene's loads, and the one that answers for them.
 namespace windlass::equilibrium {
 
+struct Started;
+
 /// The energy to compare states under the same loads by: elastic energy plus the potential of the dead loads [EI/ρ]. Of
 /// two pulls that is  T L − Σ T·r  over the two ends (T L: finite for infinite tails too, and the same for all states);
 /// of a thrust P minus P times the approach of the ends; nothing where the ends are held in place.
@@ -26,6 +28,9 @@ struct StateSummary {
   std::string topology;
   Restart restart;
 };
+
+/// In short, with its index where the load has a potential, −1 otherwise.
+StateSummary summarised(const Started& state, const scene::Scene& natural);
 
 struct Equilibria {
   Solution answer;

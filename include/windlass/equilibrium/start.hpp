@@ -44,6 +44,21 @@ std::optional<Started> thicken(const Started& flat, const scene::Scene& scene, b
 std::optional<Started> relaxed_start(const scene::Scene& scene, const std::vector<Eigen::Vector3d>& curve,
                                      const std::vector<std::string>& keys, std::string& failure);
 
+/// A place or a stretch of rod that presses on an obstacle, as a discrete rod shows it.
+struct Pressing {
+  double begin = 0.0, end = 0.0;  ///< arclength; of a place the same [ρ]
+  int obstacle = 0;               ///< its place among the scene's
+  bool line() const { return end > begin; }
+};
+
+/// The state of a dragged rod on the contacts that a discrete rod shows, polished on exact arcs, and on those that follow
+/// until all hold.
+/// @param pressing  by increasing s, apart from each other
+/// @param failure   why there is none
+std::optional<Started> dragged_on(const scene::Scene& scene, const chain::Profile& shape,
+                                  const std::vector<Pressing>& pressing, const std::vector<std::string>& keys,
+                                  std::string& failure);
+
 /// The planar state as a state of the Kirchhoff rod (half or full chain): equal up to discretisation.
 Started lift(RodProblem& planar, const Vector& x, const Vector& p, bool half);
 

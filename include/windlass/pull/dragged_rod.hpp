@@ -39,6 +39,13 @@ struct Measured {
   double moved = 0.0;                ///< mean motion, weighed by pressure, of the contact across the rod [ρ]
 };
 
+/// What presses on the rod at one quadrature point.
+struct PlaceLoad {
+  double s = 0.0;                      ///< arclength [ρ]
+  Eigen::Vector3d force;               ///< of all obstacles [EI/ρ²]
+  double cylinder = 0.0, plate = 0.0;  ///< normal forces per length [EI/ρ³]
+};
+
 /// Balance of the whole rod at the end of a step, a system for Newton's method.
 ///
 /// Unknowns: 3 (M + 3) coordinates of control points, M tensions N_e, and τ where the travel is blocked.
@@ -76,6 +83,9 @@ class DraggedRod {
   /// What the next step begins from. @param fresh  forgets all slip
   Memory memory(const Vector& u, const Memory& last, const Step& step) const;
   Memory fresh_memory(const Vector& u) const;
+  /// At every quadrature point, by increasing s.
+  std::vector<PlaceLoad> loads(const Vector& u, const Memory& last, const Step& step) const;
+  const Eigen::Vector3d& right_pull() const { return right_; }  ///< its direction
 
  private:
   /// Pressure below which contact grows softer, over T [1/ρ].

@@ -19,12 +19,15 @@ struct MeshOutcome {
   std::optional<Plateau> at;  ///< empty: no plateau up to where the pull was to end
 };
 
+/// Of forces, relative: what the limit over three meshes and a steady state differ by where they are the same.
+inline constexpr double same_state = 1e-3;
+
 /// The plateaus' limit at h = 0.
 struct Limit {
   Plateau at;
   double misfit = 0.0;  ///< largest relative distance of a mesh's F from the line in h³ through them
   /// Do the meshes end on the same state? Those of one differ by less.
-  bool one_state() const { return misfit < 1e-3; }
+  bool one_state() const { return misfit < same_state; }
 };
 
 /// Extrapolated with h³, the order of the beds (`DraggedRod`); of one mesh its own. nullopt where a mesh has no plateau.
@@ -37,10 +40,19 @@ struct Selection {
   double difference = 0.0;           ///< F over F0 of the nearest, less 1
 };
 
-/// The nearest in F0, taken for the one that was come to where F0 and R_tot agree to 1e-3. nullopt without states.
+/// The nearest in F0, taken for the one that was come to where F0 and R_tot agree to `same_state`. nullopt without states.
 /// @param force  unit in which the states' forces are [EI/ρ²]
 std::optional<Selection> selected(const Plateau& at, std::span<const equilibrium::StateSummary> states,
                                   double force);
+
+/// The state of a plateau on exact arcs: contacts are read off where the beds are pressed on, Newton's method finds the state
+/// on them and on those that follow (`equilibrium::dragged_on`); it agrees with the plateau to `same_state`. Not for a coil that
+/// lies flat on the plate.
+/// @param at       the plateau, extrapolated; natural units
+/// @param scene    in natural units
+/// @param failure  why there is none
+std::optional<equilibrium::StateSummary> polished(const Pull& pull, const Plateau& at,
+                                                  const scene::Scene& scene, std::string& failure);
 
 struct PictureRequest {
   std::vector<MeshOutcome> meshes;      ///< coarsest first

@@ -64,6 +64,7 @@ class Pull {
   std::optional<Row> advance();
 
   const DraggedRod& rod() const { return rod_; }
+  double h() const { return h_; }
   /// What the next step begins from.
   Memory memory() const;
 
