@@ -11,7 +11,8 @@ struct BendingDensity {
   Eigen::Matrix<double, 6, 1> gradient;
   Eigen::Matrix<double, 6, 6> hessian;
 
-  BendingDensity(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  // At every Gauss point of every step.
+  [[gnu::always_inline]] BendingDensity(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     const double p = a.squaredNorm(), q = b.squaredNorm(), s = a.dot(b), p3 = 1.0 / (p * std::sqrt(p)),
                  p5 = p3 / p, p7 = p5 / p, p9 = p7 / p;
     value = 0.5 * (q * p3 - s * s * p5);
