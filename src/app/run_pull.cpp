@@ -207,7 +207,6 @@ int run_pull(const PullRequest& request) {
                             ": cylinder.sliding: missing; a pull needs \"up\", a friction and a plate");
   const std::vector<double> meshes = meshes_of(request, scene::natural(scene).load.tension);
   petsc::ensure_session();
-  const DeferredInterrupts deferred;
   PullResult result;
   result.force = scene::natural(scene).solved_in.force;
   const std::filesystem::path path =
@@ -218,6 +217,7 @@ int run_pull(const PullRequest& request) {
   std::optional<PullFolder::Checkpoint> checkpoint;
   if (found == PullFolder::Found::begun) checkpoint = folder.read();
   find_states(request, result);
+  const DeferredInterrupts deferred;
   PullRun run(request, meshes, folder, result);
   const bool complete = run.run(std::move(checkpoint));
   if (!complete && result.failure.empty()) return interrupted;
