@@ -222,7 +222,7 @@ std::string load_key(const scene::Scene& scene) {
 }
 
 bool thrust_undetermined(const scene::Scene& scene) {
-  return !scene.has_cylinder && scene.ends.shortening == 0.0;
+  return !scene.has_cylinder && scene.ends.shortening == 0.0 && scene.rod.compliance() == 0.0;
 }
 
 scene::Scene determinate(scene::Scene scene) {
