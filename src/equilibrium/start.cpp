@@ -91,7 +91,7 @@ std::vector<double> relaxing_pulls(const scene::Scene& scene) {
   return {std::clamp(scene.load.tension, loose, tight), 1.0, 1.5, 0.6};
 }
 
-/// A knot, relaxed at such a pull, then tightened or loosened.
+/// A knot, relaxed at such a pull as a rod that does not stretch, then stretched, then tightened or loosened.
 std::optional<Started> knot_start(const scene::Scene& scene, bool half, const std::vector<std::string>& keys,
                                   std::string& failure) {
   const knot::Curve curve = knot::start_curve(scene);
@@ -99,7 +99,11 @@ std::optional<Started> knot_start(const scene::Scene& scene, bool half, const st
   for (const double pull : relaxing_pulls(scene)) {
     scene::Scene at = scene;
     scene::set_parameter(at, key, pull);
-    const std::optional<Started> from = relaxed_start(at, curve, {key}, failure);
+    const double compliance = scene.rod.compliance();
+    std::optional<Started> from = compliance == 0.0
+                                      ? relaxed_start(at, curve, {key}, failure)
+                                      : relaxed_start(inextensible(at), curve, by_compliance, failure);
+    if (from && compliance != 0.0) from = reach(*from, at, compliance, true, {key}, failure);
     if (from) return reach(*from, scene, scene::get_parameter(scene, key), half, keys, failure);
   }
   return std::nullopt;
@@ -140,7 +144,7 @@ Started cold_start(const scene::Scene& asked, bool spatial, bool half, const std
   std::string failure;
   if (spatial && scene.slides()) return dragged_first(scene, keys);
   if (const double compliance = scene.rod.compliance();
-      compliance != 0.0 && (scene.has_cylinder || scene.knot.tied())) {
+      compliance != 0.0 && scene.has_cylinder && !scene.knot.tied()) {
     const Started rigid = cold_start(inextensible(scene), spatial, half, by_compliance);
     if (auto stretched = reach(rigid, scene, compliance, half, keys, failure)) return *stretched;
     throw NoEquilibrium("the rod that stretches was not reached from the one that does not: " + failure);
