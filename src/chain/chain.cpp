@@ -328,8 +328,8 @@ VectorXd Chain::residual(const VectorXd& x, const Loads& loads) const {
     const int d = arc.tangent(), forces = arc.forces();
     const Eigen::Index left = numbering_.coordinate[i], right = numbering_.coordinate[i + 1];
     f.segment(left, p.left.dq.cols()) += p.left.dq.transpose() * g.head(d) - p.left.test().transpose() * p.n;
-    f.segment(right, p.right.dq.cols()) +=
-        p.right.dq.transpose() * g.segment(d, d) + p.right.test().transpose() * force_at_end(x, loads, i, p.n, g);
+    f.segment(right, p.right.dq.cols()) += p.right.dq.transpose() * g.segment(d, d) +
+                                           p.right.test().transpose() * force_at_end(x, loads, i, p.n, g);
     for (const Side side : {Side::right, Side::left})
       if (const auto drag = drag_at(x, loads, i, side))
         add_kept(drag->value, side == Side::right ? i : i + 1, f);

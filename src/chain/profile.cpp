@@ -163,8 +163,9 @@ void place_samples(const Chain& chain, const VectorXd& x, const Loads& loads, in
 }
 
 /// Margin against buckling off the obstacle, of a straight line without pressure: where it carries none but rounding.
-std::optional<double> buckling(const Piece& line, const bvp::ArcSamples& samples, const rod::Material& material,
-                               const obstacle::Surface& surface, double length, double unit) {
+std::optional<double> buckling(const Piece& line, const bvp::ArcSamples& samples,
+                               const rod::Material& material, const obstacle::Surface& surface, double length,
+                               double unit) {
   constexpr double rounding = 1e-9;
   const double force = std::max(1.0, line.n.col(0).norm());
   const double bend = samples.momentum.row(0).cwiseAbs().maxCoeff();

@@ -182,13 +182,14 @@ Chain::Gauges gauges(const RodKind& rod, const Topology& t) {
   if (rod.strut) {
     const bool touched = any_on_obstacle(rod, t, [](const obstacle::Surface&) { return true; });
     const bool pinned = rod.left != EndKind::clamped && rod.right != EndKind::clamped;
-    g.along = rod.under_thrust && !rod.weighs[0] && !any_on_obstacle(rod, t, [](const obstacle::Surface& surface) {
-                return !surface.endless_along_x();
-              });
+    g.along =
+        rod.under_thrust && !rod.weighs[0] &&
+        !any_on_obstacle(rod, t, [](const obstacle::Surface& surface) { return !surface.endless_along_x(); });
     g.spin = pinned && rod.isotropic_straight();
     // A shape turns about the axis of its ends while each section turns back about its tangent, to keep clamped ends.
     const bool upright = !rod.weighs[1] && !rod.weighs[2];  // nothing pulls it to a side
-    if (!touched && upright && (rod.isotropic_straight() || pinned)) g.phase = rod.isotropic_straight() ? -1.0 : 0.0;
+    if (!touched && upright && (rod.isotropic_straight() || pinned))
+      g.phase = rod.isotropic_straight() ? -1.0 : 0.0;
     return g;
   }
   g.height = rod.spatial && rod.travel == Travel::none && !on_plate(rod, t);

@@ -80,10 +80,10 @@ Started weighted_strut(const scene::Scene& scene, bool half, const std::vector<s
   const chain::Profile whole = without.problem->topology().half ? chain::mirrored(shape) : shape;
   if (scene.walls.empty() && scene.rod.isotropic_straight())
     shape = turned(shape, turn_to_hang(whole, loads_of(light)));
-  auto problem = std::make_shared<RodProblem>(light, true, without.problem->topology(),
-                                              without.problem->meshes(), std::vector<std::string>{ways.front()});
-  Started at{problem,
-             chain::guess_state(problem->chain(), problem->topology(), problem->rod(), shape, s),
+  auto problem =
+      std::make_shared<RodProblem>(light, true, without.problem->topology(), without.problem->meshes(),
+                                   std::vector<std::string>{ways.front()});
+  Started at{problem, chain::guess_state(problem->chain(), problem->topology(), problem->rod(), shape, s),
              problem->parameters(), without.newton_iterations};
   const int used = problem->polish(at.x, at.p);
   if (used < 0) throw NoEquilibrium("Newton did not converge for the strut with a thousandth of its weight");

@@ -102,7 +102,9 @@ RodProblem::RodProblem(scene::Scene scene, bool spatial, Topology topology,
 
 void RodProblem::rebuild() {
   rod_ = rod_of(scene_, spatial_);
-  const auto varies = [&](const char* key) { return std::find(keys_.begin(), keys_.end(), key) != keys_.end(); };
+  const auto varies = [&](const char* key) {
+    return std::find(keys_.begin(), keys_.end(), key) != keys_.end();
+  };
   if (varies("load.angle")) rod_.pull_angle = NAN;
   if (varies("rod.weight_x")) rod_.weighs[0] = true;
   if (varies("rod.weight_y")) rod_.weighs[1] = true;

@@ -58,7 +58,8 @@ void ExtensiblePlanarLineArc::factor(const ArcPoint& at, EndsMatrix& condensed) 
   condensed << -at.length * at.compliance / (1.0 + at.compliance * stiffness_), -stretch, -stretch, 0.0;
 }
 
-void ExtensiblePlanarLineArc::hessian(const ArcPoint& at, std::vector<Eigen::Triplet<double>>& entries) const {
+void ExtensiblePlanarLineArc::hessian(const ArcPoint& at,
+                                      std::vector<Eigen::Triplet<double>>& entries) const {
   const double stretch = stretch_on_circle(stiffness_, natural_, at.n[0], at.compliance);
   entries.emplace_back(0, 0, -at.length * at.compliance / (1.0 + at.compliance * stiffness_));
   entries.emplace_back(0, 1, -stretch);

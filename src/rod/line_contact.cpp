@@ -54,9 +54,10 @@ LineSection on_cylinder(const Material& rod, const Vector2d& q, const Vector2d& 
   const double n2_rate = rate * n3 - stretch * c * s * n1;
   const double g_rate = -2.0 * c * s * rate * a + c * c * a_rate + n2_rate;
   const double stretch_bend = (-k * (bend * g + rate * g_rate) - stretch_rate * divisor_rate) / divisor;
-  const double n1_rate = (bend * a + rate * a_rate + b * (stretch_bend * c * c - 2.0 * stretch_rate * c * s * rate) -
-                          stretch_rate * n1) /
-                         stretch;
+  const double n1_rate =
+      (bend * a + rate * a_rate + b * (stretch_bend * c * c - 2.0 * stretch_rate * c * s * rate) -
+       stretch_rate * n1) /
+      stretch;
   const double hoop = stretch * c * around;
   return {{n1, n2, n3}, {b * rate, -b * stretch * c * c, m3}, hoop - n1_rate, hoop};
 }
@@ -132,8 +133,7 @@ std::unique_ptr<bvp::Arc> make_line_arc(const obstacle::Surface& surface, const 
   if (!isotropic_straight(rod))
     throw std::invalid_argument("a line contact needs an isotropic, naturally straight rod");
   const SurfaceDensity on_cylinder{rod.bending_stiffness, rod.stiffness(2)};
-  if (rod.stretches)
-    return bvp::make_collocation_arc(Extensible<SurfaceDensity>{on_cylinder}, mesh, stages);
+  if (rod.stretches) return bvp::make_collocation_arc(Extensible<SurfaceDensity>{on_cylinder}, mesh, stages);
   return bvp::make_collocation_arc(on_cylinder, mesh, stages);
 }
 

@@ -27,7 +27,7 @@ std::string structure_error(const equilibrium::Solution& solution);
 /// Integrates every arc again: match at the samples, gap, pressure, contact force of line arcs.
 /// @returns RodFlow::virial of the whole rod
 double check_arcs(const equilibrium::Solution& solution, const scene::Scene& scene, const Scales& scales,
-                CheckList& list);
+                  CheckList& list);
 /// Continuity at the joints and the contact forces there.
 void check_joints(const equilibrium::Solution& solution, const scene::Scene& scene, const Scales& scales,
                   CheckList& list);

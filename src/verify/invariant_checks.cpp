@@ -93,7 +93,8 @@ void check_invariants(const Solution& solution, const scene::Scene& scene, const
                      here = (arc.s[i] - arc.s[0]) * law.weight;
       if (along) axial_force.add((x.n + strand_push + fallen).dot(*along) / scales.force);
       twist.add(x.m.dot(tangent(x)) / scales.moment);
-      if (arc.kind == equilibrium::ArcKind::free) free_force.add((x.n + here - arc.n.col(0)).norm() / scales.force);
+      if (arc.kind == equilibrium::ArcKind::free)
+        free_force.add((x.n + here - arc.n.col(0)).norm() / scales.force);
     }
   }
   if (!dragged)

@@ -157,7 +157,8 @@ Section RodFlow::Memory::section(const double* y, double s) const {
   section.r = Eigen::Map<const Vector3d>(y) + origin;
   section.q = Eigen::Map<const Vector4d>(y + 3);
   section.m = Eigen::Map<const Vector3d>(y + 7);
-  section.n = on_surface() ? Vector3d(Eigen::Map<const Vector3d>(y + 10)) : Vector3d(n - s * stiffness.weight);
+  section.n =
+      on_surface() ? Vector3d(Eigen::Map<const Vector3d>(y + 10)) : Vector3d(n - s * stiffness.weight);
   return section;
 }
 

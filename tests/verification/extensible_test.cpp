@@ -48,8 +48,8 @@ struct Capstan {
     const auto root = [&](double v) { return std::sqrt(1.0 + a * a * v * v); };
     const auto bent = [&](double v) { return 0.5 * (v * root(v) + std::asinh(a * v) / a); };
     const auto slack = [&](double v) { return 0.5 * (v * root(v) - std::asinh(a * v) / a) / (a * a); };
-    const double tail = 2.0 * std::sqrt(T) * (bent(1.0) - bent(low)) -
-                        2.0 * k * T * std::sqrt(T) * (slack(1.0) - slack(low));
+    const double tail =
+        2.0 * std::sqrt(T) * (bent(1.0) - bent(low)) - 2.0 * k * T * std::sqrt(T) * (slack(1.0) - slack(low));
     energy = 2.0 * (phi_star / stretch * (0.5 * stretch * stretch + 0.5 * k * tension * tension) + tail);
   }
 };
@@ -68,7 +68,8 @@ BOOST_AUTO_TEST_CASE(long_tails_equal_the_closed_form) {
           const Solution s = solved(stretching_coil(T, phi, length, 1.0 / k), spatial);
           const Capstan exact(T, phi, k);
           const double tails = length - 2.0 * exact.phi_star / exact.stretch;
-          BOOST_TEST_CONTEXT("T = " << T << ", phi = " << phi << ", 1/EA = " << k << ", spatial " << spatial) {
+          BOOST_TEST_CONTEXT("T = " << T << ", phi = " << phi << ", 1/EA = " << k << ", spatial "
+                                    << spatial) {
             BOOST_TEST(s.topology == "tail line tail");
             BOOST_TEST(relative(s.R_tot, exact.R_tot) < 1e-9);
             BOOST_TEST(relative(s.phi_star, exact.phi_star) < 1e-9);

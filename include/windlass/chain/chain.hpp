@@ -166,8 +166,9 @@ class Chain {
     double length = 0.0, friction = 0.0, travel = 0.0, compliance = 0.0;
     VectorXd weight = {};  ///< conjugate to n; empty: none
     bvp::ArcPoint point() const {
-      return {left.q.data(), right.q.data(), interior,   n.data(), length, friction, travel,
-              compliance,    weight.size() > 0 ? weight.data() : nullptr};
+      return {left.q.data(), right.q.data(), interior,
+              n.data(),      length,         friction,
+              travel,        compliance,     weight.size() > 0 ? weight.data() : nullptr};
     }
   };
   /// @throws std::domain_error if a tail's length is not positive.

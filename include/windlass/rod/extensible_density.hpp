@@ -91,8 +91,7 @@ struct Extensible<SurfaceDensity> {
   }
   double elastic(const Vector2& q, const Vector2& slope, const Vector2& n, double k) const {
     const Parts at = parts(q, slope, n, k);
-    const double tension = (at.force - at.bend) / at.divisor,
-                 twist = slope(1) + at.stretch * at.s * at.c,
+    const double tension = (at.force - at.bend) / at.divisor, twist = slope(1) + at.stretch * at.s * at.c,
                  normal = at.stretch * at.c * at.c;
     return 0.5 * rod.bending_stiffness * (slope(0) * slope(0) + normal * normal) +
            0.5 * rod.twisting_stiffness * twist * twist + 0.5 * k * tension * tension;
@@ -109,16 +108,17 @@ struct Extensible<SurfaceDensity> {
            0.5 * (at.bend - 2.0 * at.force - k * at.force * at.force) / at.divisor;
   }
   void second(const Vector2& q, const Vector2& slope, const Vector2& n, double k, Vector4& gz,
-              Eigen::Matrix4d& hz, Vector2& d, Eigen::Matrix<double, 2, 4>& d_z,
-              Eigen::Matrix2d& d_n) const {
+              Eigen::Matrix4d& hz, Vector2& d, Eigen::Matrix<double, 2, 4>& d_z, Eigen::Matrix2d& d_n) const {
     first(q, slope, n, k, gz, d);
     const Parts at = parts(q, slope, n, k);
     const Slopes by_psi = slopes(at, slope, n);
     const double b = rod.bending_stiffness, t = rod.twisting_stiffness, c = at.c, s = at.s, sc = s * c;
     const double force_2 = -n(0) * c - n(1) * s + 4.0 * t * slope(1) * sc,
-                 bend_2 = -4.0 * b * c * c * (c * c - 3.0 * s * s) + 2.0 * t * (at.cos2 * at.cos2 - 4.0 * sc * sc);
+                 bend_2 =
+                     -4.0 * b * c * c * (c * c - 3.0 * s * s) + 2.0 * t * (at.cos2 * at.cos2 - 4.0 * sc * sc);
     // λ changes by k/(1 + k Q) (δN − λ δQ), and so does L twice by −k/(1 + k Q) (δN − λ δQ)².
-    const double soft = k / at.divisor, by_angle = by_psi.force - at.stretch * by_psi.bend, by_twist = -t * sc;
+    const double soft = k / at.divisor, by_angle = by_psi.force - at.stretch * by_psi.bend,
+                 by_twist = -t * sc;
     hz.setZero();
     hz(0, 0) = -at.stretch * force_2 + 0.5 * at.stretch * at.stretch * bend_2 - soft * by_angle * by_angle;
     hz(0, 3) = hz(3, 0) = at.stretch * t * at.cos2 - soft * by_angle * by_twist;
@@ -150,6 +150,5 @@ struct Extensible<SurfaceDensity> {
 extern template class windlass::bvp::CollocationArc<windlass::rod::Extensible<windlass::rod::PlanarDensity>>;
 extern template class windlass::bvp::CollocationArc<
     windlass::rod::Extensible<windlass::rod::KirchhoffDensity>>;
-extern template class windlass::bvp::CollocationArc<
-    windlass::rod::Extensible<windlass::rod::SurfaceDensity>>;
+extern template class windlass::bvp::CollocationArc<windlass::rod::Extensible<windlass::rod::SurfaceDensity>>;
 extern template class windlass::bvp::CollocationArc<windlass::rod::Extensible<windlass::rod::PlaneDensity>>;

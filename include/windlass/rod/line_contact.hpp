@@ -20,7 +20,7 @@ struct Material {
   Eigen::Vector3d natural = Eigen::Vector3d::Zero();  ///< û [1/ρ]
   double compliance = 0.0;                            ///< 1/EA [ρ²/EI]
   Eigen::Vector3d weight = Eigen::Vector3d::Zero();   ///< known force per length, world frame [EI/ρ³]
-  bool stretches = false;                             ///< may it stretch, or weigh? What its arcs are made for
+  bool stretches = false;  ///< may it stretch, or weigh? What its arcs are made for
   /// 1 + ε of a section with the tension n·d₃.
   double stretch(double tension) const { return 1.0 + compliance * tension; }
 };

@@ -156,8 +156,7 @@ BOOST_AUTO_TEST_CASE(hessian_is_the_slope_of_the_gradient_where_the_force_falls_
       VectorXd v = VectorXd::Random(s.size());
       if (frames) v.head(s.size() - s.arc->forces() - 1).setZero();
       constexpr double step = 1e-5;  // differences err by step² and by 1e-16/step
-      const VectorXd difference =
-          (gradient(s.moved(step * v)) - gradient(s.moved(-step * v))) / (2.0 * step);
+      const VectorXd difference = (gradient(s.moved(step * v)) - gradient(s.moved(-step * v))) / (2.0 * step);
       BOOST_TEST_CONTEXT("configurations of " << s.arc->ambient() << " numbers")
       BOOST_TEST((h * v - difference).norm() < 1e-7 * h.norm());
     }
