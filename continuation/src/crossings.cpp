@@ -102,8 +102,11 @@ class Search {
     // The bracket of a turn ends wide where Newton's method fails close to a branch point.
     for (const Located& point : found.points) {
       if (point.type != PointType::branch_point || point.s < lo.s || point.s > hi.s) continue;
-      // Near a turn p tells no places apart: s is known to the root of p's precision.
-      const double slack = together(segment_) + std::sqrt(point.precision / options_.parameter_scale);
+      // Near a turn p tells no places apart: s is known to the root of p's precision. The slope by which the turn is found
+      // has the error of its sample divided by the distance from the branch point.
+      const double solved_to =
+          std::max(point.precision / options_.parameter_scale, options_.newton_tolerance);
+      const double slack = together(segment_) + std::sqrt(solved_to);
       if (point.s > turn.lo - slack && point.s < turn.hi + slack) return false;
       // Apart from each other the two enclose an interval where the index has the other parity.
       const Sample* middle = segment_.at(0.5 * (point.s + turn.s), true);

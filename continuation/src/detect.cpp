@@ -94,14 +94,18 @@ std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, co
   const Sample* top = &hi;
   std::optional<Located> found;
   // Functions that vanish close together: where one has its zero in a place that cannot be solved, another comes before it.
-  std::vector<std::string> unsolved;
+  std::vector<Located> unsolved;
+  const auto is_unsolved = [&](const EventFunction& event) {
+    return std::any_of(unsolved.begin(), unsolved.end(),
+                       [&](const Located& other) { return other.event == event.name; });
+  };
   for (int round = 0; round < 20; ++round) {
     const EventFunction* first = nullptr;
     double first_s = top->s;
     for (const EventFunction& event : top->events) {
       const EventFunction* base = find(at_base, event.name);
       if (!base || (found && event.name == found->event)) continue;
-      if (std::find(unsolved.begin(), unsolved.end(), event.name) != unsolved.end()) continue;
+      if (is_unsolved(event)) continue;
       const int sign = sign_of(signs, event.name);
       const double f_base = sign * base->value, f_top = sign * event.value;
       if (f_top >= -zero) continue;
@@ -111,7 +115,14 @@ std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, co
         first_s = estimate;
       }
     }
-    if (!first) return found;
+    if (!first) {
+      // Nothing comes before one that is over by then.
+      for (const Located& other : unsolved) {
+        const EventFunction* function = find(top->events, other.event);
+        if (function && sign_of(signs, other.event) * function->value < -zero) return other;
+      }
+      return found;
+    }
     const std::string name = first->name;
     const int sign = sign_of(signs, name);
     Located event;
@@ -150,7 +161,7 @@ std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, co
         std::max(std::abs(*at_lo), std::abs(*at_hi)) > jump * largest)
       event.note = "the corrector has left the branch: the function jumps";
     if (!bracket.converged) {
-      unsolved.push_back(name);
+      unsolved.push_back(event);
       if (!found) found = std::move(event);
       continue;
     }

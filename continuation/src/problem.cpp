@@ -58,6 +58,10 @@ std::optional<Transition> Problem::transition(std::size_t, const Vector&, const 
 
 std::optional<Vector> Problem::adapt(const Vector&, const Vector&) { return std::nullopt; }
 
+std::optional<Vector> Problem::carried_over(const Problem&, const Vector&, const Vector&) {
+  return std::nullopt;
+}
+
 std::string Problem::unsettled(const Vector& x, const Vector& dx) const {
   (void)x, (void)dx;
   return {};

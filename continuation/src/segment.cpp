@@ -45,6 +45,10 @@ Iterate Segment::guess(double s) const {
   } else {
     du = (s - nearest->s) * tangent_.x;
     dp = (s - nearest->s) * tangent_.p;
+    if (curvature_.x.size() > 0) {
+      du += 0.5 * s * s * curvature_.x;
+      dp += 0.5 * s * s * curvature_.p;
+    }
   }
   it.x = problem_->retract(it.x, du);
   it.u += du;

@@ -36,6 +36,16 @@ bool Walker::leaves_branch(const Segment& segment, const Sample& end, std::strin
   return false;
 }
 
+// By the last two tangents, where they tell of a step this long.
+std::optional<Tangent> Walker::curvature(double ds) const {
+  const Tangent &from = state_.previous_tangent, &to = state_.tangent;
+  if (!(state_.last_ds > 0.0) || from.x.size() != to.x.size()) return std::nullopt;
+  Tangent bend{(to.x - from.x) / state_.last_ds, (to.p - from.p) / state_.last_ds};
+  const double turn = ds * std::sqrt(inner(*state_.problem, bend, bend, options_.scales()));
+  if (!(turn < options_.max_angle)) return std::nullopt;
+  return bend;
+}
+
 // What is seen in a step so long may be a jump, and is looked at again in a shorter one. Branches that come closer to each
 // other than the rest cannot be told apart.
 bool Walker::long_step(double ds) const {
@@ -53,6 +63,7 @@ bool Walker::advance_once(std::string& failure) {
   base.determinant = state_.determinant;
   base.small = state_.small;
   base.events = state_.events;
+  if (const std::optional<Tangent> bend = curvature(step_length_.current())) segment.bend(*bend);
   Sample* end = segment.at(step_length_.current(), true);
   if (!end) return failure = segment.failure(), false;
   if (leaves_branch(segment, *end, failure)) return false;

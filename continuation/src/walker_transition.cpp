@@ -20,17 +20,40 @@ bool same_functions(const std::vector<EventFunction>& a, const std::vector<Event
       [](const EventFunction& one, const EventFunction& other) { return one.name == other.name; });
 }
 
+/// Does `tangent`, at x on the discretisation of now, go the way that `old`, at old_x on that of `before`, went? nullopt: the
+/// problem cannot tell.
+std::optional<bool> same_way(Problem& now, const Vector& x, const Tangent& tangent, const Problem& before,
+                             const Vector& old_x, const Tangent& old, const Vector& p) {
+  constexpr double step = 1e-5;  // differences of states: half the digits
+  const auto ahead = now.carried_over(before, before.retract(old_x, step * old.x), p);
+  const auto here = now.carried_over(before, old_x, p);
+  if (!ahead || !here || ahead->size() != x.size() || here->size() != x.size()) return std::nullopt;
+  const Vector moved = now.retract(x, step * tangent.x) - x;
+  return moved.dot(*ahead - *here) + step * step * tangent.p * old.p > 0.0;
+}
+
 }  // namespace
 
 void Walker::adapt() {
   if (!options_.adapt) return;
   // The new tangent is oriented by its parameter component, which says nothing next to a fold.
-  if (std::abs(state_.tangent.p) < 2.0 * std::abs(state_.tangent.p - state_.previous_tangent.p)) return;
+  const bool turning =
+      std::abs(state_.tangent.p) < 2.0 * std::abs(state_.tangent.p - state_.previous_tangent.p);
+  const std::shared_ptr<Problem> before = turning ? state_.problem->clone() : nullptr;
   try {
     const std::optional<Vector> adapted = state_.problem->adapt(state_.x, state_.p);
     if (!adapted) return;
-    const Tangent tangent =
+    Tangent tangent =
         first_tangent(*state_.problem, *adapted, state_.p, options_, state_.tangent.p < 0.0 ? -1 : 1);
+    if (turning) {
+      const auto same =
+          same_way(*state_.problem, *adapted, tangent, *before, state_.x, state_.tangent, state_.p);
+      if (!same) {
+        state_.problem = before;
+        return;
+      }
+      if (!*same) tangent = Tangent{-tangent.x, -tangent.p};
+    }
     Segment segment(state_.problem, options_, *adapted, state_.p, tangent);
     Sample* sample = segment.at(0.0, true);
     if (!sample) return lose("after adapting the discretisation: " + segment.failure());

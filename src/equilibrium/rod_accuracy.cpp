@@ -226,6 +226,13 @@ std::optional<Vector> RodProblem::adapt_mesh(const Vector& x, const Vector& p) {
   return moved;
 }
 
+std::optional<Vector> RodProblem::carried_over(const continuation::Problem& before, const Vector& x,
+                                               const Vector& p) {
+  const chain::Chain& old = *static_cast<const RodProblem&>(before).chain_;
+  if (old.joint_count() != chain_->joint_count()) return std::nullopt;  // touches laid anew
+  return chain::transfer_state(old, *chain_, x, loads(p));
+}
+
 std::optional<Vector> RodProblem::laid_where_needed(const Vector& x, const Vector& p) {
   constexpr double few = 0.6, many = 0.03;  // of what is carried, at the place where strands are nearest
   if (chain_->couplings().empty()) return std::nullopt;

@@ -5,6 +5,7 @@
 
 #include "plot_diagram_data.hpp"
 #include "plot_labels.hpp"
+#include "smooth_piece.hpp"
 #include "windlass/output/atomic_file.hpp"
 #include "windlass/output/branches_csv.hpp"
 #include "windlass/output/error.hpp"
@@ -43,8 +44,11 @@ void write_data(const DiagramData& data, const fs::path& path) {
   for (const Axis& axis : data.panels) text += " | " + axis.name;
   text +=
       "\n# blocks (separated by two blank lines) are arms of one branch with one stability; ? = not "
-      "defined\n";
-  for (const Piece& piece : data.pieces) {
+      "defined; rows between the run's points are interpolated\n";
+  std::vector<const Axis*> axes{&data.x};
+  for (const Axis& axis : data.panels) axes.push_back(&axis);
+  for (const Piece& coarse : data.pieces) {
+    const Piece piece = smooth(coarse, axes);
     text += "# branch " + std::to_string(piece.branch) + ", " + arm_state_name(piece.state) + "\n";
     for (std::size_t i = 0; i < piece.rows.size(); ++i) {
       const auto& values = piece.rows[i];

@@ -21,9 +21,13 @@ constexpr double zero_force = 1e-9;
 
 bool is_half(const RodProblem& problem) { return problem.topology().half; }
 
-/// Parity of a full chain's mode: sign of ∫ d(−s)·Rot d(s) ds.
-std::string parity_of(const Eigen::VectorXd& s, const Eigen::Matrix3Xd& d) {
+/// Parity of a full chain's mode: sign of ∫ d(−s)·Rot d(s) ds, d from that of the mid-point on: a shift of the whole rod,
+/// which depends on where a gauge holds it, has no part in it.
+std::string parity_of(const Eigen::VectorXd& s, Eigen::Matrix3Xd d) {
   double sum = 0.0;
+  Eigen::Index mid = 0;
+  s.cwiseAbs().minCoeff(&mid);
+  d.colwise() -= Eigen::Vector3d(d.col(mid));
   for (Eigen::Index k = 0; k < s.size(); ++k) {
     Eigen::Index twin = 0;
     (s.array() + s(k)).abs().minCoeff(&twin);

@@ -135,6 +135,9 @@ class Problem {
   /// May change the discretisation after an accepted point; returns the new state when it did. size() may
   /// change.
   virtual std::optional<Vector> adapt(const Vector& x, const Vector& p);
+  /// A state x of `before`, this problem as it was until adapt(), on the discretisation of now; not solved again. Two of them
+  /// tell which way a branch goes. Without it (nullopt, the default) nothing is adapted next to a fold.
+  virtual std::optional<Vector> carried_over(const Problem& before, const Vector& x, const Vector& p);
 
   /// Called on every solution the corrector found, at fixed p: moves x along directions too soft to be left to Newton's
   /// method, to where nothing has to hold it. Returns whether x was moved; the default has no such directions.

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "continuation/corrector.hpp"
@@ -44,6 +45,9 @@ class Segment {
  public:
   /// The options are copied. @param tangent  unit length in the metric
   Segment(std::shared_ptr<Problem> problem, const Options& options, Vector x, Vector p, Tangent tangent);
+
+  /// The derivative of the tangent along the branch, as far as it is known: the first sample starts on the parabola.
+  void bend(Tangent curvature) { curvature_ = std::move(curvature); }
 
   /// The solution at s; null (see failure()) if Newton's method fails. The pointer lives as long as the
   /// segment.
@@ -94,7 +98,7 @@ class Segment {
 
   std::shared_ptr<Problem> problem_;
   Options options_;
-  Tangent tangent_;
+  Tangent tangent_, curvature_;  // empty: unknown
   Borders keller_;
   std::deque<Sample> samples_;  // front: the base
   std::string failure_;

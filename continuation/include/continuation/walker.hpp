@@ -73,6 +73,7 @@ class Walker {
   // walker_step.cpp
   bool advance_once(std::string& failure);
   bool leaves_branch(const Segment& segment, const Sample& end, std::string& failure) const;
+  std::optional<Tangent> curvature(double ds) const;
   bool long_step(double ds) const;
   bool find_specials(Segment& segment, const Sample& end, const Located* turn, bool at_event,
                      std::vector<Located>& specials, std::string& failure);

@@ -68,6 +68,8 @@ class RodProblem final : public continuation::Problem {
   /// Lays touches inside lines between strands anew where they are too few, and adapts the mesh.
   std::optional<Vector> adapt(const Vector& x, const Vector& p) override;
   std::optional<Vector> adapt_mesh(const Vector& x, const Vector& p);
+  std::optional<Vector> carried_over(const continuation::Problem& before, const Vector& x,
+                                     const Vector& p) override;
   Vector fingerprint(const Vector& x, const Vector& p) override;
   continuation::BorderedNewton* newton() override { return &newton_; }
   std::shared_ptr<continuation::Problem> clone() const override;

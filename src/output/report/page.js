@@ -75,7 +75,7 @@
       type: "scatter", mode: "lines+markers", showlegend: false,
       x: x.slice(arm.from, arm.to + 1), y: y.slice(arm.from, arm.to + 1),
       customdata: branch.names.slice(arm.from, arm.to + 1),
-      line: { color: colourOf(branch.branch), width: arm.kind === "stable" ? 2.6 : 1.6, dash: arm.kind === "unstable" ? "dash" : "solid" },
+      line: { color: colourOf(branch.branch), shape: "spline", width: arm.kind === "stable" ? 2.6 : 1.6, dash: arm.kind === "unstable" ? "dash" : "solid" },
       marker: { color: colourOf(branch.branch), size: 3.5, opacity: arm.kind === "stable" ? 1 : 0.6 },
       hovertemplate: `%{customdata}<br>${state.x} %{x:.6g}<br>${state.y} %{y:.6g}<br>${arm.kind}<extra>branch ${branch.branch}</extra>`,
     }));
