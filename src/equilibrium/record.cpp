@@ -319,7 +319,7 @@ Solution record(RodProblem& problem, const Vector& x, const Vector& p) {
     out.phi_star = 0.0;
   }
   measure_invariants(out, problem.rod(), loads);
-  out.stretch = largest_stretch(out, loads.compliance);
+  if (loads.compliance != 0.0) out.stretch = largest_stretch(out, loads.compliance);
   if (loads.weighs()) out.weight_energy = energy_of_weight(whole, loads.weight());
   if (out.dragged) measure_drag(out, *scene.friction);
   out.error_estimate = problem.last_error();
