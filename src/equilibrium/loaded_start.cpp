@@ -36,12 +36,14 @@ chain::Profile turned(chain::Profile shape, double angle) {
   return shape;
 }
 
-/// Angle by which a bow must turn about e_x to hang in the direction of the weight.
-double turn_to_hang(const chain::Profile& shape, const contact::Loads& loads) {
+/// Angle by which a bow must turn about e_x to hang in the direction of the weight, or half a turn where the rod is free to make
+/// no other.
+double turn_to_hang(const chain::Profile& shape, const contact::Loads& loads, bool isotropic) {
   const Eigen::Vector3d middle = shape.at(0.5 * (shape.begin() + shape.end())).r;
   constexpr double straight = 1e-9;
   if (std::hypot(loads.weight_y, loads.weight_z) == 0.0 || middle.tail<2>().norm() < straight) return 0.0;
-  return std::atan2(loads.weight_z, loads.weight_y) - std::atan2(middle(2), middle(1));
+  const double turn = std::atan2(loads.weight_z, loads.weight_y) - std::atan2(middle(2), middle(1));
+  return isotropic ? turn : M_PI * std::round(turn / M_PI);
 }
 
 }  // namespace
@@ -78,8 +80,8 @@ Started weighted_strut(const scene::Scene& scene, bool half, const std::vector<s
   chain::Profile shape = without.problem->profile(without.x, without.p);
   const std::vector<double> s = without.problem->joint_places(without.x, without.p, shape);
   const chain::Profile whole = without.problem->topology().half ? chain::mirrored(shape) : shape;
-  if (scene.walls.empty() && scene.rod.isotropic_straight())
-    shape = turned(shape, turn_to_hang(whole, loads_of(light)));
+  if (scene.rod.natural_curvature == 0.0 && scene.rod.natural_twist == 0.0)
+    shape = turned(shape, turn_to_hang(whole, loads_of(light), scene.rod.isotropic_straight()));
   auto problem =
       std::make_shared<RodProblem>(light, true, without.problem->topology(), without.problem->meshes(),
                                    std::vector<std::string>{ways.front()});

@@ -50,6 +50,8 @@ void check_weight(const Document& document, const Scene& scene) {
     if (scene.has_cylinder)
       refuse(k == 2 ? "must be 0 with [cylinder]: nothing carries weight along its axis"
                     : "must be 0 with [cylinder]: a line contact under weight is not built yet");
+    if (!scene.walls.empty())
+      refuse("must be 0 beside [[wall]]: a line on a wall under weight is not built yet");
     if (scene.knot.tied()) refuse("must be 0 for a knot: its start is relaxed without weight");
     if (k == 0 && !scene.ends.shortening)
       refuse("must be 0 with load.thrust: both ends are free to move along e_x, and nothing carries it");
