@@ -11,7 +11,7 @@ using measurement::Weights;
 
 namespace {
 
-constexpr double mu = 0.32;
+constexpr double true_mu = 0.32;
 constexpr double contact_force[] = {2.0, 5.0, 11.0, 23.0};
 
 /// F0 = mu R (1 + mu/2): friction presses the rod on, as the plate does.
@@ -22,7 +22,7 @@ std::optional<double> strength(std::size_t point, double friction) {
 std::vector<ComparedPoint> points(double error) {
   std::vector<ComparedPoint> all;
   for (std::size_t i = 0; i < 4; ++i) {
-    all.push_back({{1.0 + static_cast<double>(i), *strength(i, mu), {}, 0}, contact_force[i]});
+    all.push_back({{1.0 + static_cast<double>(i), *strength(i, true_mu), {}, 0}, contact_force[i]});
     all.back().measured.F0 += i % 2 == 0 ? error : -error;
   }
   return all;
@@ -36,9 +36,9 @@ BOOST_AUTO_TEST_CASE(the_coefficient_is_found_from_far_away) {
   for (const double start : {0.01, 0.2, 1.0}) {
     std::vector<ComparedPoint> measured = points(0.0);
     const auto fit = measurement::fit_dragged(measured, Weights::absolute, start, strength);
-    BOOST_TEST(std::abs(fit.mu / mu - 1.0) < 1e-9);
+    BOOST_TEST(std::abs(fit.mu / true_mu - 1.0) < 1e-9);
     for (std::size_t i = 0; i < measured.size(); ++i)
-      BOOST_TEST(std::abs(measured[i].R_tot * mu - *strength(i, mu)) < 1e-8);
+      BOOST_TEST(std::abs(measured[i].R_tot * true_mu - *strength(i, true_mu)) < 1e-8);
   }
 }
 
