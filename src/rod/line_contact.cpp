@@ -39,7 +39,9 @@ LineSection on_cylinder(double b, const Vector2d& q, const Vector2d& momentum, c
 ///     λ n₁ = ψ' A + Bλ' cos²ψ,  A = m₃ − 3Bλ sin ψ cos ψ,   n_θ' = −λ cos ψ n₁,
 ///     λ' (1 + kB cos⁴ψ) = −kψ' G,  G = A cos²ψ + n₂,   Bψ'' = λ (n₂ + m₃ cos²ψ − Bλ sin ψ cos³ψ),
 ///     p = λ cos ψ n_θ − n₁'.
-LineSection on_cylinder(const Material& rod, const Vector2d& q, const Vector2d& momentum, const Vector2d& n) {
+/// A function of its own, or the compiler shares products with the other, and rounds that one otherwise.
+[[gnu::noinline]] LineSection on_stretching_cylinder(const Material& rod, const Vector2d& q,
+                                                     const Vector2d& momentum, const Vector2d& n) {
   const double b = rod.bending_stiffness, k = rod.compliance;
   const double c = std::cos(q(0)), s = std::sin(q(0)), rate = momentum(0) / b, m3 = momentum(1);
   const double divisor = 1.0 + k * b * c * c * c * c, divisor_rate = -4.0 * k * b * c * c * c * s * rate;
@@ -141,7 +143,7 @@ LineSection line_section(const obstacle::Surface& surface, const Material& rod, 
                          const Vector2d& momentum, const Vector2d& n) {
   if (is_flat(surface)) return on_plane(rod, q, momentum, n, weight_in_frame(surface, rod, q(0)));
   return rod.compliance == 0.0 ? on_cylinder(rod.bending_stiffness, q, momentum, n)
-                               : on_cylinder(rod, q, momentum, n);
+                               : on_stretching_cylinder(rod, q, momentum, n);
 }
 
 Vector2d line_forces(const obstacle::Surface& surface, const Vector2d& u, const Vector3d& r,
