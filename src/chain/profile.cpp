@@ -244,13 +244,22 @@ Piece sample_link(const Chain& chain, const RodKind& rod, const VectorXd& x, con
 
 }  // namespace
 
+namespace {
+
+/// Of a rod that stretches; a function of its own, or the compiler rounds those that do not otherwise.
+[[gnu::noinline]] Vector3d stretched(const rod::Material& material, const Piece& piece, Eigen::Index sample,
+                                     const Vector3d& bend) {
+  return bend / material.stretch(piece.n.col(sample).dot(rod::directors(piece.q.col(sample)).col(2)));
+}
+
+}  // namespace
+
 Vector3d curvature(const rod::Material& material, const Piece& piece, Eigen::Index sample) {
   const Eigen::Matrix3d d = rod::directors(piece.q.col(sample));
   const Vector3d u =
       material.natural + (d.transpose() * piece.m.col(sample)).cwiseQuotient(material.stiffness);
-  const double stretch =
-      material.compliance == 0.0 ? 1.0 : material.stretch(piece.n.col(sample).dot(d.col(2)));
-  return (u(1) * d.col(0) - u(0) * d.col(1)) / stretch;
+  const Vector3d bend = u(1) * d.col(0) - u(0) * d.col(1);
+  return material.compliance == 0.0 ? bend : stretched(material, piece, sample, bend);
 }
 
 Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod, const VectorXd& x,

@@ -79,18 +79,23 @@ class Curve {
     where_.push_back({index, first});
   }
 
-  double stretch(const Piece& piece, Eigen::Index k) const {
+  [[gnu::noinline]] double stretch(const Piece& piece, Eigen::Index k) const {
     return whole_.material.stretch(piece.n.col(k).dot(tangent(piece.q.col(k))));
   }
 
   Jet knot(const Piece& piece, int k) const {
+    if (whole_.material.compliance != 0.0) return stretched_knot(piece, k);
+    return {piece.r.col(k), tangent(piece.q.col(k)), curvature(whole_.material, piece, k)};
+  }
+
+  /// r' = λ t, λ' = n'·t/EA + λ n·κ/EA, κ the curvature; contacts push across t. A function of its own, or the compiler rounds the
+  /// other way otherwise.
+  [[gnu::noinline]] Jet stretched_knot(const Piece& piece, int k) const {
     const rod::Material& rod = whole_.material;
-    const Jet still{piece.r.col(k), tangent(piece.q.col(k)), curvature(rod, piece, k)};
-    if (rod.compliance == 0.0) return still;
-    // r' = λ t, λ' = n'·t/EA + λ n·κ/EA, κ the curvature; contacts push across t.
+    const Vector3d t = tangent(piece.q.col(k)), bend = curvature(rod, piece, k);
     const double by = stretch(piece, k);
-    const double rate = rod.compliance * (by * piece.n.col(k).dot(still.k) - rod.weight.dot(still.t));
-    return {still.r, by * still.t, by * by * still.k + rate * still.t};
+    const double rate = rod.compliance * (by * piece.n.col(k).dot(bend) - rod.weight.dot(t));
+    return {piece.r.col(k), by * t, by * by * bend + rate * t};
   }
 
   static Jet quintic(const Jet& a, const Jet& b, double h, double place) {
