@@ -114,4 +114,34 @@ BOOST_AUTO_TEST_CASE(friction_is_fitted_on_dragged_states) {
   BOOST_TEST(fit["mu"].get<double>() == mu, boost::test_tools::tolerance(1e-7));
 }
 
+BOOST_AUTO_TEST_CASE(the_fit_follows_the_shape_that_friction_gives_a_helix) {
+  // Strengths of a helix dragged with one coefficient, fitted on its branch at another: R_tot of that branch would not do.
+  const TemporaryFolder folder;
+  const auto dragged = [&](const char* mu, const char* out) {
+    const Outcome branch = run_program(
+        with({"continue", shipped_scene("capstan-2pi-plate"), "--out", out, "--quiet"},
+             {"rod.length=14.283185307179586", "model.kind=kirchhoff", std::string("cylinder.friction=") + mu,
+              "continuation.from=1.01", "continuation.to=0.9"}),
+        folder.path());
+    BOOST_REQUIRE_MESSAGE(branch.status == 0, branch.err);
+    return read_csv(folder.path() / out / "branches.csv");
+  };
+  dragged("0.005", "run");
+  std::string data = "T, F0\n";
+  double ratio = 0.0;  // F0/R_tot says mu, whatever the shape, where the rod does not run along itself
+  for (const auto& row : dragged("0.009", "measured").rows) {
+    if (row.at("type") != "regular") continue;
+    data += row.at("T") + ", " + row.at("F0") + "\n";
+    ratio = std::stod(row.at("F0")) / std::stod(row.at("R_tot"));
+  }
+  BOOST_TEST(ratio == 0.009, boost::test_tools::tolerance(1e-9));
+  folder.write("data.csv", data);
+  const Outcome outcome =
+      run_program({"fit", "run", "--csv", "data.csv", "--json", "--format", "png"}, folder.path());
+  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  const auto fit = nlohmann::json::parse(outcome.out);
+  BOOST_TEST(fit["mu"].get<double>() == 0.009, boost::test_tools::tolerance(1e-7));
+  BOOST_TEST(fit["standard_error"].get<double>() < 1e-9);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
