@@ -15,22 +15,28 @@ int RodProblem::index(const Vector& x, const Vector& p) {
   // these contacts: the count of the last sound point stands until the event is located.
   if (index_ < 0 || !degenerate(x, at)) {
     index_ = count(x, p, contact::Parity::even, index_);
-    // By Haynsworth's inertia formula, the directions of a rod that may slide; counted from where it was let to, which is no
-    // point of the branch.
-    if (chain_->slides()) {
-      const int off = chain_->sliding_stiffness(x, at) < 0.0;
-      if (!sliding_reference_) sliding_reference_ = off - sliding_off_;
-      sliding_off_ = off - *sliding_reference_;
-    }
+    if (!topology_.half) count_sliding(x, at);
   }
-  return index_ + sliding_off_;
+  return topology_.half ? index_ : index_ + sliding_off_;
+}
+
+// By Haynsworth's inertia formula, the directions of a rod that may slide; counted from where it was let to, which is no
+// point of the branch.
+void RodProblem::count_sliding(const Vector& x, const Loads& at) {
+  if (!slides_) return;
+  const int off = chain_->sliding_stiffness(x, at) < 0.0;
+  if (!sliding_reference_) sliding_reference_ = off - sliding_off_;
+  sliding_off_ = off - *sliding_reference_;
 }
 
 int RodProblem::breaking_index(const Vector& x, const Vector& p) {
   if (!topology_.half || dragged()) return -1;
   const Loads at = loads(p);
-  if (breaking_index_ >= 0 && degenerate(x, at)) return breaking_index_;
-  return breaking_index_ = count(x, p, contact::Parity::odd, breaking_index_);
+  if (breaking_index_ < 0 || !degenerate(x, at)) {
+    breaking_index_ = count(x, p, contact::Parity::odd, breaking_index_);
+    count_sliding(x, at);
+  }
+  return breaking_index_ + sliding_off_;
 }
 
 continuation::Matrix RodProblem::neutral_motions(const Vector& x, const Vector& p) {

@@ -185,9 +185,9 @@ void RodProblem::factor(const Vector& x, const Vector& p, const Eigen::MatrixXd&
 std::optional<continuation::Unrestricted> RodProblem::unrestricted(const Vector& x, const Vector& p) {
   if (!topology_.half) return std::nullopt;
   try {
-    Started full = unfold(*this, x, p, 0);
+    const Started full = unfold(*this, x, p, 0);
     // As a branch of the full chain would: short tails hold the rod, and where held and free rods lose stability differs.
-    full.problem->choose_sliding(full.x, p);
+    full.problem->let_slide(slides_);
     return continuation::Unrestricted{full.problem, full.x};
   } catch (const NoEquilibrium&) {
     return std::nullopt;

@@ -38,11 +38,12 @@ bool turns_lines(const chain::Chain& chain, const Vector& x, const Vector& dx, d
 
 bool RodProblem::slides_freely(const Vector& x, const Vector& p) {
   // What resists sliding, over the pull; below some 1e-7 rounding moves the rod along itself.
-  constexpr double resolved = 1e-6, lost = 1e-7;
-  if (topology_.half || rod_.strut || dragged() || rod_.infinite || !chain_->holds_slide()) return false;
+  constexpr double resolved = 1e-6, lost = 8e-7;
+  const bool half = topology_.half;  // its odd variations slide
+  if (rod_.strut || dragged() || rod_.infinite || !(half || chain_->holds_slide())) return false;
   const Loads at = loads(p);
   const int last = chain_->link_count() - 1;
-  const double tail = std::min(chain_->length(x, at, 0), chain_->length(x, at, last));
+  const double tail = std::min(chain_->length(x, at, half ? last : 0), chain_->length(x, at, last));
   const double resistance = std::exp(-2.0 * std::sqrt(at.tension / rod_.bending_stiffness) * tail);
   return resistance > (slides_ ? lost : resolved);
 }
@@ -50,12 +51,17 @@ bool RodProblem::slides_freely(const Vector& x, const Vector& p) {
 bool RodProblem::choose_sliding(const Vector& x, const Vector& p) {
   const bool freely = slides_freely(x, p);
   if (freely == slides_) return false;
-  slides_ = freely;
-  chain_->let_slide(freely);
-  sliding_reference_.reset();
+  let_slide(freely);
+  if (topology_.half) return false;  // the same equations
   finer_.reset();
   factored_x_.resize(0);
   return true;
+}
+
+void RodProblem::let_slide(bool freely) {
+  slides_ = freely;
+  chain_->let_slide(freely);
+  sliding_reference_.reset();
 }
 
 bool RodProblem::settle(Vector& x, const Vector& p) {
@@ -69,7 +75,7 @@ bool RodProblem::settle(Vector& x, const Vector& p) {
     if (std::abs(chain_->joint(j).out_of_clamp(chain_->coordinates(x, j))) > out)
       throw std::domain_error(leaves_clamp);
   if (std::abs(chain_->holding_force(x)) < nothing * tension) return false;
-  if (slides_) {
+  if (chain_->slides()) {
     if (polish(x, p) < 0) throw std::domain_error("the rod slides along itself: nothing balances it here");
     return true;
   }

@@ -214,6 +214,22 @@ BOOST_AUTO_TEST_CASE(a_full_chain_follows_odd_and_asymmetric_arms) {
   BOOST_TEST(odd_of_half == odd);  // which the half chain itself cannot follow: arms on the full chain
 }
 
+// Tails so short that they resist sliding: the half chain's last odd point, at T = 0.1131259258 on the full chain
+// (`diagram` of the same with model.symmetry="none"); held against sliding the rod would lose stability at 0.1291656.
+BOOST_AUTO_TEST_CASE(an_odd_point_of_a_half_chain_is_that_of_a_rod_free_to_slide) {
+  for (const char* step : {"0", "0.1"}) {
+    const TemporaryFolder folder;
+    draw(folder, "capstan-4pi",
+         {"load.angle=\"5 pi\"", "rod.length=37.70796326794897", "rod.twist_ratio=0.2",
+          std::string("continuation.step_max=") + step});
+    double last = 0.0;
+    for (const auto& point : nlohmann::json::parse(slurp(folder.path() / "run" / "special_points.json")))
+      if (point["type"] == "branch_point" && point["mode"]["parity"] == "odd")
+        last = point["T"].get<double>();
+    BOOST_TEST(std::abs(last - 0.1131259258) < 1e-9);
+  }
+}
+
 // phi at fixed T, through the flattening of the one touch, the coil and its helices.
 BOOST_AUTO_TEST_CASE(branches_in_the_angle_reach_eight_pi) {
   for (const char* ends : {"moment_free", "clamped"}) {

@@ -155,6 +155,9 @@ class RodProblem final : public continuation::Problem {
   bool slides_freely(const Vector& x, const Vector& p);
   /// Lets the rod slide, or holds it, as its tails ask for. @returns whether its equations have changed
   bool choose_sliding(const Vector& x, const Vector& p);
+  void let_slide(bool freely);
+  /// Counts what sliding adds to the directions that may slide: all of a full chain, the odd ones of a half.
+  void count_sliding(const Vector& x, const contact::Loads& at);
   /// Errors divided by what is allowed: of the target by the tolerance, of the nodes by the certificate's level.
   double excess(const Vector& x, const Vector& p);
   double nodal_goal() const;
