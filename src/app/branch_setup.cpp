@@ -42,8 +42,10 @@ continuation::Options options_of(const scene::Scene& scene) {
   options.lower = std::min(from, c.to);
   options.upper = std::max(from, c.to);
   const double range = std::abs(c.to - from);
-  // Tensions up to 1e4 and shortenings below 1 are walked alike: the parameter's unit follows its range.
-  options.parameter_scale = std::clamp(range / 5.0, 0.2, 1e3);
+  // Tensions up to 1e4 and shortenings below 1 are walked alike: the parameter's unit follows its range. That of an axial
+  // stiffness has no bounds, for stiff rods hardly answer to it.
+  const double most = c.parameter == "rod.axial_stiffness" ? HUGE_VAL : 1e3;
+  options.parameter_scale = std::clamp(range / 5.0, 0.2, most);
   if (c.step > 0.0) options.step = c.step;
   if (c.step_min > 0.0) options.step_min = c.step_min;
   if (c.step_max > 0.0) options.step_max = c.step_max;

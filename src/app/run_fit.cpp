@@ -7,6 +7,8 @@
 #include <stdexcept>
 
 #include "app/commands.hpp"
+#include "windlass/equilibrium/follow.hpp"
+#include "windlass/measurement/dragged_fit.hpp"
 #include "windlass/measurement/fit_picture.hpp"
 #include "windlass/output/stable_state.hpp"
 #include "windlass/petsc/session.hpp"
@@ -62,6 +64,51 @@ Comparison compare(const FitRequest& request, const output::Run& run, const scen
     }
   }
   return comparison;
+}
+
+/// The same of a run whose cylinder slips along the rod: at the run's own friction.
+struct DraggedComparison {
+  Comparison points;
+  std::vector<equilibrium::Solution> states;  ///< of the points used
+};
+
+DraggedComparison compare_dragged(const FitRequest& request, const output::Run& run,
+                                  const scene::Scene& scene) {
+  const double least = request.min_tension.empty() ? 0.0 : tension_of(request.min_tension, scene.units);
+  DraggedComparison comparison;
+  for (const auto& measured : measurement::read_measurements(request.csv, scene.units)) {
+    std::optional<equilibrium::Solution> state = output::stable_state(run, scene, measured.T);
+    if (!state) {
+      comparison.points.without_state.push_back(measured);
+      continue;
+    }
+    const double per_friction = *state->F0 / *scene.friction;
+    if (measured.T < least) {
+      comparison.points.below.push_back({measured, per_friction});
+      continue;
+    }
+    comparison.points.used.push_back({measured, per_friction});
+    comparison.points.sources.push_back(ForceSource::computed);
+    comparison.states.push_back(std::move(*state));
+  }
+  return comparison;
+}
+
+/// Follows the states of the measured points in the friction coefficient, each from where it was last.
+measurement::Strength strength_of(std::vector<equilibrium::Solution> states, const scene::Scene& scene) {
+  std::vector<double> friction(states.size(), *scene.friction);
+  return [states = std::move(states), friction = std::move(friction), scene](
+             std::size_t point, double mu) mutable -> std::optional<double> {
+    scene::Scene at = scene;
+    at.friction = friction[point];
+    try {
+      states[point] = equilibrium::follow(at, states[point], "cylinder.friction", mu);
+    } catch (const equilibrium::NoEquilibrium&) {
+      return std::nullopt;
+    }
+    friction[point] = mu;
+    return states[point].F0;
+  };
 }
 
 const char* name(ForceSource source) {
@@ -142,11 +189,17 @@ int run_fit(const FitRequest& request) {
     throw InputError(
         request.run.string() +
         ": the fit needs a branch or diagram of a capstan or a knot on a cylinder, in load.tension");
-  const Comparison comparison = compare(request, run, scene);
+  DraggedComparison found = scene.slides() ? compare_dragged(request, run, scene)
+                                           : DraggedComparison{compare(request, run, scene), {}};
+  Comparison& comparison = found.points;
   for (const auto& point : comparison.without_state)
     fmt::print(stderr, "windlass: {}:{}: left out: the run has no stable state at T = {:.6g}\n",
                request.csv.string(), point.line, point.T);
-  const FrictionFit fit = measurement::fit_friction(comparison.used, weights_of(request.weights));
+  const measurement::Weights weights = weights_of(request.weights);
+  const FrictionFit fit = scene.slides()
+                              ? measurement::fit_dragged(comparison.used, weights, *scene.friction,
+                                                         strength_of(std::move(found.states), scene))
+                              : measurement::fit_friction(comparison.used, weights);
   // The numbers first: they are not lost where the pictures cannot be written.
   if (request.common.json)
     fmt::print("{}\n", to_json(fit, comparison).dump(2));

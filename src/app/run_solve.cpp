@@ -163,6 +163,7 @@ void print_summary(const equilibrium::Equilibria& found, const scene::Scene& sce
   else
     print_strut(solution, physical, error);
   print_quantity("energy", solution.energy, physical.moment(solution.energy));
+  if (solution.stretch > 0.0) fmt::print("  {:<12} {:.8g} at most\n", "stretch", solution.stretch);
   if (solution.self_distance)
     print_quantity("self_distance", *solution.self_distance, physical.length(*solution.self_distance),
                    fmt::format("between s = {:.6g} and {:.6g}", solution.self_s[0], solution.self_s[1]));

@@ -66,6 +66,10 @@ std::string unit_text(const scene::Key& key) {
       return "curvature";
     case scene::Dimension::force:
       return "force or hung mass";
+    case scene::Dimension::compliance:
+      return "1/force";
+    case scene::Dimension::distributed:
+      return "force per length";
     case scene::Dimension::stiffness:
       return "bending stiffness";
     case scene::Dimension::modulus:

@@ -87,7 +87,6 @@ template <class Density>
 void CollocationArc<Density>::element_gradient(const Nodes& q, const ArcPoint& at, int element, Nodes& out,
                                                Force& g_n, double& g_length) const {
   const double h = mesh_[element + 1] - mesh_[element], inverse = 1.0 / (h * at.length);
-  const Eigen::Map<const Force> n(at.n);
   const int m = stages();
   if constexpr (A == 1) {
     const PaddedTable& table = PaddedTable::get(m);
@@ -98,10 +97,11 @@ void CollocationArc<Density>::element_gradient(const Nodes& q, const ArcPoint& a
     Force d;
     for (int g = 0; g < m; ++g) {
       value(0) = (table.value[g] * nodes).sum(), slope(0) = inverse * (table.slope[g] * nodes).sum();
-      const double lagrangian = density_.first(value, slope, n, gz, d);
+      const double lagrangian = first(value, slope, force_there(at, element, g), at, gz, d);
       const double w = h * table_.weight(g), wl = w * at.length;
       g_n -= wl * d;
       g_length += w * (lagrangian - gz(1) * slope(0));
+      if constexpr (stretches) g_length += w * fallen(at, element, g, d);
       sum += (wl * gz(0)) * table.value[g] + (table_.weight(g) * gz(1)) * table.slope[g];
     }
     out.resize(A, m + 1);
@@ -117,10 +117,11 @@ void CollocationArc<Density>::element_gradient(const Nodes& q, const ArcPoint& a
   Force d;
   for (int g = 0; g < m; ++g) {
     const Ambient value = values.col(g), slope = slopes.col(g);
-    const double lagrangian = density_.first(value, slope, n, gz, d);
+    const double lagrangian = first(value, slope, force_there(at, element, g), at, gz, d);
     const double w = h * table_.weight(g), wl = w * at.length;
     g_n -= wl * d;
     g_length += w * (lagrangian - gz.template tail<A>().dot(slope));
+    if constexpr (stretches) g_length += w * fallen(at, element, g, d);
     values.col(g) = wl * gz.template head<A>();
     slopes.col(g) = table_.weight(g) * gz.template tail<A>();
   }
@@ -157,10 +158,17 @@ void CollocationArc<Density>::gradient(const ArcPoint& at, double* interior, End
 template <class Density>
 void CollocationArc<Density>::element_hessian(const Nodes& q, const ArcPoint& at, int element,
                                               Eigen::MatrixXd& k) const {
-  if constexpr (A == 1) {
+  if constexpr (stretches)
+    stretched_hessian(q, at, element, k);
+  else if constexpr (A == 1)
     scalar_hessian(q, at, element, k);
-    return;
-  }
+  else
+    vector_hessian(q, at, element, k);
+}
+
+template <class Density>
+void CollocationArc<Density>::vector_hessian(const Nodes& q, const ArcPoint& at, int element,
+                                             Eigen::MatrixXd& k) const requires(A > 1 && !stretches) {
   const int m = stages(), columns = inner() + 2 * D, length = inner() + E - 1;
   const double h = mesh_[element + 1] - mesh_[element], inverse = 1.0 / (h * at.length);
   const Eigen::Map<const Force> n(at.n);
@@ -220,9 +228,77 @@ void CollocationArc<Density>::element_hessian(const Nodes& q, const ArcPoint& at
   }
 }
 
+/// With ζ = (q, q', n(s)) at a Gauss point, a function of the nodes, n and ℓ, its share of the action is S = w ℓ L(ζ):
+/// S'' = w ℓ ζ'ᵀ L'' ζ' + w ℓ L'·ζ'' + the derivatives of w ℓ, where ζ'' is that of q' = q_σ/(h ℓ) alone.
+template <class Density>
+void CollocationArc<Density>::stretched_hessian(const Nodes& q, const ArcPoint& at, int element,
+                                                Eigen::MatrixXd& k) const requires(stretches) {
+  constexpr int most = A * max_points + P + 1, Z = 2 * A + P;
+  const int m = stages(), n_at = A * (m + 1), l_at = n_at + P;
+  const double h = mesh_[element + 1] - mesh_[element], inverse = 1.0 / (h * at.length);
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, most> all(l_at + 1, l_at + 1);
+  Eigen::Matrix<double, Z, Eigen::Dynamic, 0, Z, most> motion(Z, l_at + 1), bent(Z, l_at + 1);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most, 1> forces(n_at);  // S' with the nodes
+  all.setZero(), forces.setZero();
+  Ambient value, slope;
+  Eigen::Matrix<double, 2 * A, 1> gz;
+  Eigen::Matrix<double, 2 * A, 2 * A> hz;
+  Force d;
+  Eigen::Matrix<double, P, 2 * A> d_z;
+  Eigen::Matrix<double, P, P> d_n;
+  Eigen::Matrix<double, Z, Z> second;
+  for (int g = 0; g < m; ++g) {
+    evaluate(table_, q, g, inverse, value, slope);
+    density_.second(value, slope, force_there(at, element, g), at.compliance, gz, hz, d, d_z, d_n);
+    const double w = h * table_.weight(g), wl = w * at.length;
+    second << hz, -d_z.transpose(), -d_z, -d_n;
+    motion.setZero();
+    for (int i = 0; i <= m; ++i)
+      for (int c = 0; c < A; ++c) {
+        motion(c, A * i + c) = table_.value(g, i);
+        motion(A + c, A * i + c) = inverse * table_.slope(g, i);
+      }
+    motion.template block<P, P>(2 * A, n_at).setIdentity();
+    motion.template block<A, 1>(A, l_at) = -slope / at.length;
+    if (at.weight)
+      motion.template block<P, 1>(2 * A, l_at) =
+          -along(at, element, g) / at.length * Eigen::Map<const Force>(at.weight);
+    bent.noalias() = wl * second * motion;
+    all.noalias() += motion.transpose() * bent;
+    for (int i = 0; i <= m; ++i) {
+      const double v = table_.value(g, i), s = inverse * table_.slope(g, i);
+      all.col(l_at).template segment<A>(A * i) += w * v * gz.template head<A>();
+      forces.template segment<A>(A * i) += wl * (v * gz.template head<A>() + s * gz.template tail<A>());
+    }
+    all.col(l_at).template segment<P>(n_at) -= w * d;
+    all(l_at, l_at) -= 2.0 * w * d.dot(motion.template block<P, 1>(2 * A, l_at));
+  }
+  const int columns = inner() + 2 * D, length = inner() + E - 1;
+  std::array<Eigen::Matrix<double, A, D>, max_points> basis;
+  k.template block<P, P>(columns, columns) = all.template block<P, P>(n_at, n_at);
+  k.template block<1, P>(length, columns) = all.col(l_at).template segment<P>(n_at).transpose();
+  k(length, length) = all(l_at, l_at);
+  for (int i = 0; i <= m; ++i) {
+    const int c = column(i);
+    basis[i] = density_.basis(q.col(i));
+    k.template block<P, D>(columns, c) = all.template block<P, A>(n_at, A * i) * basis[i];
+    k.template block<1, D>(length, c) = all.col(l_at).template segment<A>(A * i).transpose() * basis[i];
+    for (int j = 0; j <= i; ++j) {
+      const Eigen::Matrix<double, D, D> block =
+          basis[i].transpose() * (all.template block<A, A>(A * i, A * j) * basis[j]);
+      if (c >= column(j))
+        k.template block<D, D>(c, column(j)) = block;
+      else
+        k.template block<D, D>(column(j), c) = block.transpose();
+    }
+    const double radial = density_.radial(q.col(i), forces.template segment<A>(A * i));
+    for (int j = 0; j < D; ++j) k(c + j, c + j) += radial;
+  }
+}
+
 template <class Density>
 void CollocationArc<Density>::scalar_hessian(const Nodes& q, const ArcPoint& at, int element,
-                                             Eigen::MatrixXd& k) const requires(A == 1) {
+                                             Eigen::MatrixXd& k) const requires(A == 1 && !stretches) {
   const int m = stages(), first = inner() + 2 * D, length = inner() + E - 1;
   const double h = mesh_[element + 1] - mesh_[element], inverse = 1.0 / (h * at.length);
   const Eigen::Map<const Force> n(at.n);
@@ -410,7 +486,6 @@ ArcSamples CollocationArc<Density>::sample(const ArcPoint& at) const {
                  Eigen::MatrixXd::Zero(P, count),
                  {}};
   out.slope.resize(D, count);
-  const Eigen::Map<const Force> n(at.n);
   Force base = Force::Zero();
   Nodes q, g;
   Ambient value, slope;
@@ -425,8 +500,8 @@ ArcSamples CollocationArc<Density>::sample(const ArcPoint& at) const {
     Eigen::MatrixXd directions(P, m), loads(A, m);
     for (int j = 0; j < m; ++j) {
       evaluate(table_, q, j, 1.0 / (h * at.length), value, slope);
-      if constexpr (A == D) {
-        density_.first(value, slope, n, gz, d);
+      if constexpr (A == D || stretches) {
+        first(value, slope, force_there(at, e, j), at, gz, d);
         loads.col(j) = gz.template head<A>();
       } else {
         d = density_.direction(value);
@@ -447,7 +522,7 @@ ArcSamples CollocationArc<Density>::sample(const ArcPoint& at) const {
       if constexpr (A == D) {
         out.momentum.col(k) = gained.col(i) - g.col(0);
       } else {
-        density_.first(q.col(i), slope, n, gz, d);
+        first(q.col(i), slope, Eigen::Map<const Force>(at.n), at, gz, d);  // ∂L/∂q' of a free rod knows no n
         out.momentum.col(k) = density_.basis(q.col(i)).transpose() * gz.template tail<A>();
       }
       out.slope.col(k) = density_.basis(q.col(i)).transpose() * slope;
@@ -472,7 +547,12 @@ double CollocationArc<Density>::energy(const ArcPoint& at) const {
     gather(at, e, q);
     for (int g = 0; g < stages(); ++g) {
       evaluate(table_, q, g, 1.0 / (h * at.length), value, slope);
-      sum += h * at.length * table_.weight(g) * density_.elastic(value, slope);
+      double density = 0.0;
+      if constexpr (stretches)
+        density = density_.elastic(value, slope, force_there(at, e, g), at.compliance);
+      else
+        density = density_.elastic(value, slope);
+      sum += h * at.length * table_.weight(g) * density;
     }
   }
   return sum;

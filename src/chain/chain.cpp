@@ -203,7 +203,7 @@ double Chain::touch_force(const VectorXd& x, const Loads& loads, int joint) cons
   const VectorXd after = force(x, loads, joint);
   VectorXd before = after;
   if (joint > 0)
-    before = force(x, loads, joint - 1);
+    before = end_force(x, loads, joint - 1);
   else
     before(1) = -before(1);
   return (before - after).dot(joints_[joint]->chart(coordinates(x, joint)).normal.head(after.size()));
@@ -218,6 +218,19 @@ VectorXd Chain::force(const VectorXd& x, const Loads& loads, int link) const {
   n(0) = tension * std::cos(0.5 * loads.angle);
   n(1) = l.pull * tension * std::sin(0.5 * loads.angle);
   return n;
+}
+
+VectorXd Chain::end_force(const VectorXd& x, const Loads& loads, int link) const {
+  VectorXd n = force(x, loads, link);
+  if (loads.weighs()) n -= length(x, loads, link) * weight_on(loads, link);
+  return n;
+}
+
+VectorXd Chain::weight_on(const Loads& loads, int link) const {
+  const Eigen::Vector3d weight = loads.weight();
+  const obstacle::Surface* surface = links_[link].role == "line" ? joints_[link]->surface() : nullptr;
+  if (!surface) return weight.head(links_[link].arc->forces());
+  return surface->chart(Eigen::Vector2d::Zero()).tangents.transpose() * weight;  // of a plane
 }
 
 VectorXd Chain::force_by_travel(const Loads& loads, int link) const {
@@ -237,6 +250,8 @@ Chain::Placed Chain::place(const VectorXd& x, const Loads& loads, int link) cons
   p.interior = interior(x, link);
   p.length = length(x, loads, link);
   p.friction = loads.friction;
+  p.compliance = loads.compliance;
+  if (loads.weighs()) p.weight = weight_on(loads, link);
   if (gauges_.travel == Travel::free) p.travel = x(slide_at_ + 1);
   if (std::isinf(p.length)) p.length = tail_decay_lengths / std::sqrt(p.n.norm());
   // Between contacts the equations hold, analytically, for lengths past zero too, so that the event can be located
@@ -313,8 +328,8 @@ VectorXd Chain::residual(const VectorXd& x, const Loads& loads) const {
     const int d = arc.tangent(), forces = arc.forces();
     const Eigen::Index left = numbering_.coordinate[i], right = numbering_.coordinate[i + 1];
     f.segment(left, p.left.dq.cols()) += p.left.dq.transpose() * g.head(d) - p.left.test().transpose() * p.n;
-    f.segment(right, p.right.dq.cols()) +=
-        p.right.dq.transpose() * g.segment(d, d) + p.right.test().transpose() * force_at_end(arc, p.n, g);
+    f.segment(right, p.right.dq.cols()) += p.right.dq.transpose() * g.segment(d, d) +
+                                           p.right.test().transpose() * force_at_end(x, loads, i, p.n, g);
     for (const Side side : {Side::right, Side::left})
       if (const auto drag = drag_at(x, loads, i, side))
         add_kept(drag->value, side == Side::right ? i : i + 1, f);
@@ -323,7 +338,10 @@ VectorXd Chain::residual(const VectorXd& x, const Loads& loads) const {
   }
   for (int j = 0; j < joint_count(); ++j) {
     add_kept(joints_[j]->dead_load(coordinates(x, j), loads), j, f);
-    if (numbering_.location[j] >= 0 && coupling_of_[j] < 0) f(numbering_.location[j]) = location(x, j).value;
+    if (numbering_.location[j] < 0 || coupling_of_[j] >= 0) continue;
+    const Joint::Location c = location(x, j);
+    f(numbering_.location[j]) = c.value;
+    if (const auto stretched = stretching(x, loads, j, c.side)) f(numbering_.location[j]) += stretched->value;
   }
   add_strand_forces(x, loads, f);
   if (slide_at_ < 0) return f;
@@ -337,8 +355,18 @@ VectorXd Chain::residual(const VectorXd& x, const Loads& loads) const {
   return f;
 }
 
-SmallVector Chain::force_at_end(const Arc& arc, const SmallVector& n, const bvp::EndsVector& gradient) {
-  return arc.carried() == 0 ? n : SmallVector(n + gradient.tail(arc.carried()));
+SmallVector Chain::force_at_end(const VectorXd& x, const Loads& loads, int link, const SmallVector& n,
+                                const bvp::EndsVector& gradient) const {
+  const Arc& arc = *links_[link].arc;
+  if (arc.carried() > 0) return n + gradient.tail(arc.carried());
+  return loads.weighs() ? SmallVector(n - length(x, loads, link) * weight_on(loads, link)) : n;
+}
+
+std::optional<Joint::Stretching> Chain::stretching(const VectorXd& x, const Loads& loads, int joint,
+                                                   Side side) const {
+  if (loads.compliance == 0.0) return std::nullopt;
+  const SmallVector n = side == Side::right ? force(x, loads, joint) : end_force(x, loads, joint - 1);
+  return joints_[joint]->stretching(coordinates(x, joint), n, loads.compliance);
 }
 
 std::optional<Joint::Drag> Chain::drag_at(const VectorXd& x, const Loads& loads, int link, Side side) const {

@@ -139,7 +139,7 @@ void Chain::add_joint_terms(Purpose purpose, const Numbering& numbering, const V
                             MatrixXd& dense) const {
   const Arc& arc = *links_[link].arc;
   const int d = arc.tangent();
-  const SmallVector n = force(x, loads, link), n_end = force_at_end(arc, n, gradient);
+  const SmallVector n = force(x, loads, link), n_end = force_at_end(x, loads, link, n, gradient);
   const bool travels = gauges_.travel != Travel::none && purpose == Purpose::equilibrium;
   for (const Side side :
        {Side::right, Side::left}) {  // of the joint: the arc starts at its right, ends at its left
@@ -164,15 +164,53 @@ void Chain::add_joint_terms(Purpose purpose, const Numbering& numbering, const V
     dense.block(row, first, n.size(), count) += sign * at.dx;
     dense.block(first, row, count, n.size()) += sign * at.test().transpose();
   }
+  if (loads.weighs()) add_weight(purpose, numbering, x, loads, link, dense);
 }
 
-void Chain::add_locations(const VectorXd& x, MatrixXd& dense) const {
+/// Of the term n(ℓ)·X_b, n(ℓ) = n − w ℓ: the derivatives −w·∂X_b with the arclengths of the link's ends.
+void Chain::add_weight(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads,
+                       int link, MatrixXd& dense) const {
+  const Attachment at = attachment(purpose, x, loads, link + 1, Side::left);
+  const SmallVector by_length = -at.dx.transpose() * weight_on(loads, link);
+  const Eigen::Index first = numbering.coordinate[link + 1];
+  for (const int joint : {link, link + 1}) {
+    const Eigen::Index location = numbering.location[joint];
+    if (location < 0) continue;
+    const double sign = joint == link ? -1.0 : 1.0;
+    for (Eigen::Index c = 0; c < by_length.size(); ++c) {
+      dense(first + c, location) += sign * by_length(c);
+      // In variations arclengths have rows of the Lagrangian, in equilibrium those of their conditions.
+      if (purpose != Purpose::equilibrium) dense(location, first + c) += sign * by_length(c);
+    }
+  }
+}
+
+/// Derivatives of what Chain::stretching() adds to a location condition.
+void Chain::add_stretching(const VectorXd& x, const Loads& loads, int joint, MatrixXd& dense) const {
+  const Side side = location(x, joint).side;
+  const auto stretched = stretching(x, loads, joint, side);
+  if (!stretched) return;
+  const Eigen::Index row = numbering_.location[joint];
+  for (std::size_t k = 0; k < kept_[joint].size(); ++k)
+    dense(row, numbering_.coordinate[joint] + static_cast<Eigen::Index>(k)) +=
+        stretched->by_w(kept_[joint][k]);
+  const int link = side == Side::right ? joint : joint - 1;
+  if (numbering_.force[link] >= 0)
+    dense.block(row, numbering_.force[link], 1, stretched->by_n.size()) += stretched->by_n.transpose();
+  if (side == Side::right || !loads.weighs()) return;
+  const double by_length = -stretched->by_n.dot(SmallVector(weight_on(loads, link)));
+  dense(row, row) += by_length;
+  if (numbering_.location[link] >= 0) dense(row, numbering_.location[link]) -= by_length;
+}
+
+void Chain::add_locations(const VectorXd& x, const Loads& loads, MatrixXd& dense) const {
   for (int j = 0; j < joint_count(); ++j) {
     const Eigen::Index row = numbering_.location[j];
     if (row < 0 || coupling_of_[j] >= 0) continue;
     const SmallVector by_w = location(x, j).by_w;
     for (std::size_t k = 0; k < kept_[j].size(); ++k)
       dense(row, numbering_.coordinate[j] + k) += by_w(kept_[j][k]);
+    if (loads.compliance != 0.0) add_stretching(x, loads, j, dense);
   }
   if (slide_at_ < 0) return;
   if (slides_) dense(numbering_.slide, numbering_.slide) += 1.0;
@@ -249,7 +287,7 @@ void Chain::factor(const VectorXd& x, const Loads& loads, const MatrixXd& b_aske
       for (std::size_t s = 0; s < l.dofs.size(); ++s) dense(l.dofs[r], l.dofs[s]) += share(r, s);
     add_joint_terms(Purpose::equilibrium, numbering_, x, loads, i, gradients_[i], dense);
   }
-  add_locations(x, dense);
+  add_locations(x, loads, dense);
   add_couplings(Purpose::equilibrium, numbering_, x, dense);
 
   border_b_ = b;

@@ -14,13 +14,16 @@ using Eigen::Vector3d;
 namespace {
 
 /// Momenta conserved on a line contact, from the state in its middle.
-void adopt_force(const obstacle::Surface* surface, const Profile::At& at, double* n, int forces) {
+/// @param fallen  what the weight has taken of the force on the way there
+void adopt_force(const obstacle::Surface* surface, const Profile::At& at, const Vector3d& fallen, double* n,
+                 int forces) {
+  const Vector3d begin = at.n + fallen;
   if (!surface) {
-    for (int k = 0; k < forces; ++k) n[k] = at.n(k);
+    for (int k = 0; k < forces; ++k) n[k] = begin(k);
     return;
   }
   const Eigen::Vector2d on_line =
-      rod::line_forces(*surface, surface->coordinates(at.r, at.angle), at.r, at.n, at.m);
+      rod::line_forces(*surface, surface->coordinates(at.r, at.angle), at.r, begin, at.m);
   for (int k = 0; k < forces; ++k) n[k] = on_line(k);
 }
 
@@ -105,7 +108,8 @@ VectorXd guess_state(const Chain& chain, const Topology& topology, const RodKind
     const obstacle::Surface* surface =
         kinds[i] == Stretch::line ? &rod.obstacles[topology.obstacle(i)] : nullptr;
     if (chain.link(i).pull == 0)
-      adopt_force(surface, profile.at(begin + 0.5 * length), chain.force(x, i), arc.forces());
+      adopt_force(surface, profile.at(begin + 0.5 * length), 0.5 * length * profile.material.weight,
+                  chain.force(x, i), arc.forces());
     double no_twist = 0.0;
     if (surface && rod.spatial)
       adopt_line(rod, *surface, chain, i, profile, begin, length, x);

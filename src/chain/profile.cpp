@@ -7,6 +7,7 @@
 #include "windlass/bvp/collocation_table.hpp"
 #include "windlass/contact/spatial_joints.hpp"
 #include "windlass/obstacle/cylinder.hpp"
+#include "windlass/rod/closed_form_arcs.hpp"
 
 namespace windlass::chain {
 
@@ -34,10 +35,15 @@ void resize(Piece& piece, Eigen::Index count) {
   piece.inclination.resize(count);
 }
 
-/// Planar line contact round the circle: n = n_t t, m = B (1 − κ̂) e_z, p = n_t = n_a − m.
+/// Planar line contact round the circle: n = n_t t, m = B (λ − κ̂) e_z, n_t = n_a − m, p = λ n_t, λ = 1 without stretch.
 void sample_planar_line(const bvp::ArcSamples& samples, const RodKind& rod, double a0, double torque,
-                        Piece& piece) {
-  const double moment = rod.bending_stiffness * (1.0 - rod.natural_curvature()), tension = torque - moment;
+                        double compliance, Piece& piece) {
+  double moment = rod.bending_stiffness * (1.0 - rod.natural_curvature()), stretch = 1.0;
+  if (compliance != 0.0) {
+    stretch = rod::stretch_on_circle(rod.bending_stiffness, rod.natural_curvature(), torque, compliance);
+    moment = rod.bending_stiffness * (stretch - rod.natural_curvature());
+  }
+  const double tension = torque - moment;
   for (Eigen::Index k = 0; k < samples.sigma.size(); ++k) {
     const double a = a0 + samples.displacement(0, k);
     piece.angle(k) = a;
@@ -45,17 +51,19 @@ void sample_planar_line(const bvp::ArcSamples& samples, const RodKind& rod, doub
     piece.q.col(k) = flat_frame(a);
     piece.n.col(k) = tension * obstacle::Cylinder::around(a);
     piece.m.col(k) = Vector3d(0.0, 0.0, moment);
-    piece.p(k) = tension;
+    piece.p(k) = stretch * tension;
   }
 }
 
 /// Line contact in space, see rod/line_contact.hpp.
-void sample_surface(const bvp::ArcSamples& samples, const RodKind& rod, const obstacle::Surface& surface,
-                    const Eigen::Vector2d& start, const Eigen::Vector2d& n, Piece& piece) {
-  const rod::Material material = rod.material();
+void sample_surface(const bvp::ArcSamples& samples, const rod::Material& material,
+                    const obstacle::Surface& surface, const Eigen::Vector2d& start, const Eigen::Vector2d& n,
+                    Piece& piece) {
   for (Eigen::Index k = 0; k < samples.sigma.size(); ++k) {
     const Eigen::Vector2d u = start + samples.displacement.col(k).head<2>(), q = samples.q.col(k).head<2>();
-    const Eigen::Vector2d here_n = samples.force.size() > 0 ? Eigen::Vector2d(samples.force.col(k)) : n;
+    Eigen::Vector2d here_n = samples.force.size() > 0 ? Eigen::Vector2d(samples.force.col(k)) : n;
+    if (!material.weight.isZero())
+      here_n -= (piece.s(k) - piece.s(0)) * (surface.chart(u).tangents.transpose() * material.weight);
     const rod::LineSection at =
         rod::line_section(surface, material, q, samples.momentum.col(k).head<2>(), here_n);
     const obstacle::Chart here = surface.chart(u);
@@ -72,14 +80,13 @@ void sample_surface(const bvp::ArcSamples& samples, const RodKind& rod, const ob
 }
 
 /// ∫ p ds by Lobatto quadrature of the hoop part, and the jump of n·N taken exactly.
-double surface_force(const Piece& piece, const bvp::ArcSamples& samples, const RodKind& rod,
+double surface_force(const Piece& piece, const bvp::ArcSamples& samples, const rod::Material& material,
                      const obstacle::Surface& surface, const Eigen::Vector2d& start, const Eigen::Vector2d& n,
                      double length) {
   const Eigen::Index last = piece.s.size() - 1;
   const auto normal = [&](Eigen::Index k) {
     return surface.chart(start + samples.displacement.col(k).head<2>()).normal;
   };
-  const rod::Material material = rod.material();
   double sum = normal(0).dot(piece.n.col(0)) - normal(last).dot(piece.n.col(last));
   const auto& table = bvp::CollocationTable::get(piece.stride);
   for (std::size_t e = 0; e + 1 < samples.nodes.size(); ++e) {
@@ -100,21 +107,22 @@ double surface_force(const Piece& piece, const bvp::ArcSamples& samples, const R
 }
 
 void sample_free(const bvp::ArcSamples& samples, const RodKind& rod, const Vector3d& start, const Vector3d& n,
-                 Piece& piece) {
+                 const Vector3d& weight, Piece& piece) {
+  const bool weighs = !weight.isZero();
   Vector3d m_left = Vector3d::Zero(), r_left = start;
   for (Eigen::Index k = 0; k < samples.sigma.size(); ++k) {
     Vector3d r = start;
     r.head(samples.displacement.rows()) += samples.displacement.col(k);
     piece.r.col(k) = r;
-    piece.n.col(k) = n;
+    piece.n.col(k) = weighs ? Vector3d(n - (piece.s(k) - piece.s(0)) * weight) : n;
     piece.q.col(k) = rod.spatial ? Eigen::Vector4d(samples.q.col(k)) : flat_frame(samples.q(0, k));
     Vector3d m(0.0, 0.0, 0.0);
     if (rod.spatial)
       m = 0.5 * rod::directors(piece.q.col(k)) * samples.momentum.col(k);
     else
       m(2) = samples.momentum(0, k);
-    // Between element ends the moment follows from m' = n × d₃ more exactly than from the polynomial's slope.
-    if (k % piece.stride == 0) {
+    // Between element ends the moment follows from m' = n × r' more exactly than from the polynomial's slope.
+    if (k % piece.stride == 0 || weighs) {
       m_left = m;
       r_left = r;
     } else {
@@ -155,15 +163,16 @@ void place_samples(const Chain& chain, const VectorXd& x, const Loads& loads, in
 }
 
 /// Margin against buckling off the obstacle, of a straight line without pressure: where it carries none but rounding.
-std::optional<double> buckling(const Piece& line, const bvp::ArcSamples& samples, const RodKind& rod,
-                               const obstacle::Surface& surface, double length) {
+std::optional<double> buckling(const Piece& line, const bvp::ArcSamples& samples,
+                               const rod::Material& material, const obstacle::Surface& surface, double length,
+                               double unit) {
   constexpr double rounding = 1e-9;
-  const double force = std::max(1.0, line.n.col(0).norm()), unit = rod.unit_length;
+  const double force = std::max(1.0, line.n.col(0).norm());
   const double bend = samples.momentum.row(0).cwiseAbs().maxCoeff();
   if (line.p.cwiseAbs().maxCoeff() > rounding * force / unit || bend > rounding * force * unit)
     return std::nullopt;
   const double tension = line.n.col(0).dot(rod::directors(line.q.col(0)).col(2));
-  return rod::buckling_margin(surface, rod.material(), samples.q(1, 0), tension, length);
+  return rod::buckling_margin(surface, material, samples.q(1, 0), tension, length);
 }
 
 /// ∫ of evenly spaced samples, an odd number of them.
@@ -199,12 +208,13 @@ Piece sample_link(const Chain& chain, const RodKind& rod, const VectorXd& x, con
                                   flat ? plate_height(rod, topology, link) : placed.left.x(1)),
           along(placed.n(0), flat ? 0.0 : placed.n(1));
       const double whole = topology.half && link == 0 ? 2.0 * placed.length : placed.length;
-      sample_surface(samples, rod, surface, start, along, piece);
+      const rod::Material material = rod.material(loads);
+      sample_surface(samples, material, surface, start, along, piece);
       piece.force = flat ? simpson(piece.p, placed.length)
-                         : surface_force(piece, samples, rod, surface, start, along, placed.length);
-      piece.buckling = buckling(piece, samples, rod, surface, whole);
+                         : surface_force(piece, samples, material, surface, start, along, placed.length);
+      piece.buckling = buckling(piece, samples, material, surface, whole, rod.unit_length);
     } else {
-      sample_planar_line(samples, rod, placed.left.x(0), placed.n(0), piece);
+      sample_planar_line(samples, rod, placed.left.x(0), placed.n(0), loads.compliance, piece);
       piece.force = piece.p(0) * placed.length;
     }
   } else {
@@ -217,7 +227,7 @@ Piece sample_link(const Chain& chain, const RodKind& rod, const VectorXd& x, con
       start.head(placed.right.x.size()) = placed.right.x;
       start.head(placed.n.size()) -= samples.displacement.col(samples.displacement.cols() - 1);
     }
-    sample_free(samples, rod, start, n, piece);
+    sample_free(samples, rod, start, n, loads.weight(), piece);
   }
   if (!rod.spatial) {
     piece.heading = stretch == Stretch::line ? piece.angle : VectorXd(samples.q.row(0));
@@ -234,24 +244,35 @@ Piece sample_link(const Chain& chain, const RodKind& rod, const VectorXd& x, con
 
 }  // namespace
 
+namespace {
+
+/// Of a rod that stretches; a function of its own, or the compiler rounds those that do not otherwise.
+[[gnu::noinline]] Vector3d stretched(const rod::Material& material, const Piece& piece, Eigen::Index sample,
+                                     const Vector3d& bend) {
+  return bend / material.stretch(piece.n.col(sample).dot(rod::directors(piece.q.col(sample)).col(2)));
+}
+
+}  // namespace
+
 Vector3d curvature(const rod::Material& material, const Piece& piece, Eigen::Index sample) {
   const Eigen::Matrix3d d = rod::directors(piece.q.col(sample));
   const Vector3d u =
       material.natural + (d.transpose() * piece.m.col(sample)).cwiseQuotient(material.stiffness);
-  return u(1) * d.col(0) - u(0) * d.col(1);
+  const Vector3d bend = u(1) * d.col(0) - u(0) * d.col(1);
+  return material.compliance == 0.0 ? bend : stretched(material, piece, sample, bend);
 }
 
 Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod, const VectorXd& x,
                 const Loads& loads) {
   Profile out;
   out.obstacles = rod.obstacles;
-  out.material = rod.material();
+  out.material = rod.material(loads);
   out.unit_length = rod.unit_length;
   out.radius = loads.radius;
   for (int i = 0; i < chain.link_count(); ++i)
     out.pieces.push_back(sample_link(chain, rod, x, loads, i, topology));
   unroll(out.pieces);
-  add_contacts(chain, topology, rod, x, loads, out);
+  add_contacts(chain, topology, x, loads, out);
   return out;
 }
 
@@ -266,10 +287,11 @@ double total_contact_force(const Chain& chain, const Topology& topology, const R
       const Piece piece = sample_link(chain, rod, x, loads, i, topology);
       sum += piece.force * (topology.half ? 2.0 : 1.0);
       n_first = piece.n.col(0), n_last = piece.n.rightCols<1>();
-    } else {  // the force is constant on a free arc
+    } else {  // the force is constant on a free arc, but for its weight
       const VectorXd n = chain.force(x, loads, i);
       n_first.head(n.size()) = n;
       n_last = n_first;
+      if (loads.weighs()) n_last.head(n.size()) = chain.end_force(x, loads, i);
     }
     // R_tot is what the first obstacle, the cylinder, carries; a plate's share is told apart.
     if (chain.on_obstacle(i) && (rod.strut || topology.pushed_by(i) == 0)) {

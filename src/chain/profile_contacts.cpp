@@ -33,8 +33,8 @@ Vector3d jump(const std::vector<Piece>& pieces, int joint) {
 }
 
 /// Contacts with an obstacle.
-Contact obstacle_contact(const Chain& chain, const Topology& topology, const RodKind& rod, const VectorXd& x,
-                         int j, const std::vector<Piece>& pieces) {
+Contact obstacle_contact(const Chain& chain, const Topology& topology, const rod::Material& material,
+                         const VectorXd& x, int j, const std::vector<Piece>& pieces) {
   Contact c;
   const Joint& joint = chain.joint(j);
   const obstacle::Chart here = joint.chart(chain.coordinates(x, j));
@@ -47,14 +47,14 @@ Contact obstacle_contact(const Chain& chain, const Topology& topology, const Rod
   c.force = jump(pieces, j).dot(c.normal);
   const Vector3d t = rod::directors(after.q.col(0)).col(2);
   const Eigen::Vector2d along = here.tangents.transpose() * t;
-  c.gap_curvature = curvature(rod.material(), after, 0).dot(c.normal) + along.dot(here.bend * along);
+  c.gap_curvature = curvature(material, after, 0).dot(c.normal) + along.dot(here.bend * along);
   return c;
 }
 
 /// Contacts with another strand. Of the distance D(s₁, s₂) at its least: D₁₁ = 1/D + e·r₁″, D₂₂ = 1/D − e·r₂″,
 /// D₁₂ = −t₁·t₂/D.
-Contact strand_contact(const Chain& chain, const Topology& topology, const RodKind& rod, const VectorXd& x,
-                       int j, int coupling, const std::vector<Piece>& pieces) {
+Contact strand_contact(const Chain& chain, const Topology& topology, const rod::Material& material,
+                       const VectorXd& x, int j, int coupling, const std::vector<Piece>& pieces) {
   const Chain::Crossing at = chain.crossing(x, coupling);
   const Coupling& with = at.coupling;
   Contact c;
@@ -69,8 +69,8 @@ Contact strand_contact(const Chain& chain, const Topology& topology, const RodKi
     c.surface_normal = surface->normal(c.r);
     c.reaction = (jump(pieces, j) - c.force * c.normal).dot(c.surface_normal);
   }
-  const Vector3d first = curvature(rod.material(), pieces[with.first], 0),
-                 second = with.image().cwiseProduct(curvature(rod.material(), pieces[with.second], 0));
+  const Vector3d first = curvature(material, pieces[with.first], 0),
+                 second = with.image().cwiseProduct(curvature(material, pieces[with.second], 0));
   Eigen::Matrix2d bend;
   bend(0, 0) = 1.0 / at.distance + at.direction.dot(first);
   bend(1, 1) = 1.0 / at.distance - at.direction.dot(second);
@@ -98,13 +98,13 @@ void carry_turns(std::vector<Contact>& contacts, std::vector<Piece>& pieces) {
 
 }  // namespace
 
-void add_contacts(const Chain& chain, const Topology& topology, const RodKind& rod, const VectorXd& x,
-                  const Loads& loads, Profile& out) {
+void add_contacts(const Chain& chain, const Topology& topology, const VectorXd& x, const Loads& loads,
+                  Profile& out) {
   for (int j = 0; j < chain.joint_count(); ++j) {
     if (!chain.is_contact(j)) continue;
     const int coupling = chain.coupling_of(j);
-    Contact c = coupling < 0 ? obstacle_contact(chain, topology, rod, x, j, out.pieces)
-                             : strand_contact(chain, topology, rod, x, j, coupling, out.pieces);
+    Contact c = coupling < 0 ? obstacle_contact(chain, topology, out.material, x, j, out.pieces)
+                             : strand_contact(chain, topology, out.material, x, j, coupling, out.pieces);
     c.joint = j;
     c.s = chain.arclength(x, loads, j);
     c.z = c.r(2);

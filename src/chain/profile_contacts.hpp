@@ -6,8 +6,8 @@
 namespace windlass::chain {
 
 /// Fills in the contacts of a profile whose pieces are there, and counts the turns of its free pieces from them.
-void add_contacts(const Chain& chain, const Topology& topology, const RodKind& rod, const VectorXd& x,
-                  const Loads& loads, Profile& profile);
+void add_contacts(const Chain& chain, const Topology& topology, const VectorXd& x, const Loads& loads,
+                  Profile& profile);
 
 /// How often a contact counts on the whole rod.
 double copies(const Topology& topology, int joint);

@@ -172,7 +172,7 @@ Sparse Chain::jacobian(const VectorXd& x, const Loads& loads) const {
     out += Sparse(rows.transpose() * sparse_hessian(Purpose::equilibrium, place(x, loads, i), i) * columns);
     add_joint_terms(Purpose::equilibrium, numbering_, x, loads, i, gradients_[i], dense);
   }
-  add_locations(x, dense);
+  add_locations(x, loads, dense);
   add_couplings(Purpose::equilibrium, numbering_, x, dense);
   std::vector<Triplet> entries;
   for (Eigen::Index i = 0; i < dense_size_; ++i)

@@ -26,6 +26,9 @@ struct Jet {
 class Curve {
  public:
   explicit Curve(const Profile& whole) : whole_(whole) {
+    if (whole.material.compliance != 0.0)
+      for (const Piece& piece : whole.pieces)
+        for (Eigen::Index k = 0; k < piece.s.size(); ++k) longest = std::max(longest, stretch(piece, k));
     for (std::size_t i = 0; i < whole.pieces.size(); ++i) {
       const Piece& piece = whole.pieces[i];
       begins.push_back(static_cast<int>(s.size()));
@@ -65,6 +68,7 @@ class Curve {
     Vector3d r, t;
   };
   std::vector<Middle> middle;  ///< a sample inside each element
+  double longest = 1.0;        ///< length of the centre line a unit of s, at most
 
  private:
   void add_element(const Piece& piece, int index, int first) {
@@ -75,8 +79,23 @@ class Curve {
     where_.push_back({index, first});
   }
 
+  [[gnu::noinline]] double stretch(const Piece& piece, Eigen::Index k) const {
+    return whole_.material.stretch(piece.n.col(k).dot(tangent(piece.q.col(k))));
+  }
+
   Jet knot(const Piece& piece, int k) const {
+    if (whole_.material.compliance != 0.0) return stretched_knot(piece, k);
     return {piece.r.col(k), tangent(piece.q.col(k)), curvature(whole_.material, piece, k)};
+  }
+
+  /// r' = λ t, λ' = n'·t/EA + λ n·κ/EA, κ the curvature; contacts push across t. A function of its own, or the compiler rounds the
+  /// other way otherwise.
+  [[gnu::noinline]] Jet stretched_knot(const Piece& piece, int k) const {
+    const rod::Material& rod = whole_.material;
+    const Vector3d t = tangent(piece.q.col(k)), bend = curvature(rod, piece, k);
+    const double by = stretch(piece, k);
+    const double rate = rod.compliance * (by * piece.n.col(k).dot(bend) - rod.weight.dot(t));
+    return {piece.r.col(k), by * t, by * by * bend + rate * t};
   }
 
   static Jet quintic(const Jet& a, const Jet& b, double h, double place) {
@@ -177,10 +196,11 @@ class Search {
     const double turn = curve_.turned[b] - curve_.turned[a];
     if (b == a + 1) {
       const Curve::Middle& m = curve_.middle[a];
-      return {m.r, m.t, std::max(m.s - curve_.s[a], curve_.s[b] - m.s), turn};
+      return {m.r, m.t, curve_.longest * std::max(m.s - curve_.s[a], curve_.s[b] - m.s), turn};
     }
     const int m = (a + b) / 2;
-    return {curve_.r[m], curve_.t[m], std::max(curve_.s[m] - curve_.s[a], curve_.s[b] - curve_.s[m]), turn};
+    const double reach = curve_.longest * std::max(curve_.s[m] - curve_.s[a], curve_.s[b] - curve_.s[m]);
+    return {curve_.r[m], curve_.t[m], reach, turn};
   }
 
   /// Does the distance change monotonically along the stretch, and not end in a minimum at the end of the rod? Chords

@@ -11,6 +11,7 @@
 #include "windlass/contact/spatial_joints.hpp"
 #include "windlass/rod/closed_form_arcs.hpp"
 #include "windlass/rod/dragged_line_arc.hpp"
+#include "windlass/rod/extensible_density.hpp"
 #include "windlass/rod/kirchhoff_density.hpp"
 #include "windlass/rod/planar_density.hpp"
 #include "windlass/rod/plate_line_arc.hpp"
@@ -102,12 +103,27 @@ std::unique_ptr<Joint> contact_joint(const RodKind& rod, const Topology& t, int 
   if (rod.spatial)
     return std::make_unique<spatial::Edge>(line, rod.bending_stiffness, rod.obstacles.pointer(obstacle),
                                            rod.bending_stiffness * rod.stiffness.cwiseInverse(), rod.natural);
-  return std::make_unique<planar::Edge>(line, rod.bending_stiffness * (1.0 - rod.natural_curvature()));
+  return std::make_unique<planar::Edge>(line, rod.bending_stiffness * (1.0 - rod.natural_curvature()),
+                                        rod.bending_stiffness);
+}
+
+std::unique_ptr<Arc> free_arc(const RodKind& rod, const ArcMesh& mesh) {
+  const rod::PlanarDensity planar{rod.bending_stiffness, rod.natural_curvature()};
+  const rod::KirchhoffDensity spatial{rod.stiffness, rod.natural};
+  const auto meshed = [&](const auto& density) {
+    return bvp::make_collocation_arc(density, mesh.nodes, mesh.stages);
+  };
+  if (rod.stretches())
+    return rod.spatial ? meshed(rod::Extensible<rod::KirchhoffDensity>{spatial})
+                       : meshed(rod::Extensible<rod::PlanarDensity>{planar});
+  return rod.spatial ? meshed(spatial) : meshed(planar);
 }
 
 std::unique_ptr<Arc> make_arc(const RodKind& rod, Stretch stretch, int obstacle, const ArcMesh& mesh,
                               bool rightward) {
   if (stretch == Stretch::line) {
+    if (!rod.spatial && rod.stretches())
+      return std::make_unique<rod::ExtensiblePlanarLineArc>(rod.bending_stiffness, rod.natural_curvature());
     if (!rod.spatial)
       return std::make_unique<rod::PlanarLineArc>(rod.bending_stiffness, rod.natural_curvature());
     if (rod.travel != Travel::none && rod.obstacles[obstacle].slips())
@@ -119,15 +135,12 @@ std::unique_ptr<Arc> make_arc(const RodKind& rod, Stretch stretch, int obstacle,
     if (!rod.infinite && (rod.clamped() || !rod.isotropic_straight()))
       throw std::invalid_argument(
           "a finite tail in closed form needs a free end and an isotropic, straight rod");
+    if (rod.stretches()) throw std::invalid_argument("no tail in closed form stretches");
     using End = rod::TailArc::End;
     return std::make_unique<rod::TailArc>(rod.spatial ? 3 : 2, rod.bending_stiffness, rightward,
                                           rod.infinite ? End::infinite : End::moment_free);
   }
-  if (!rod.spatial)
-    return bvp::make_collocation_arc(rod::PlanarDensity{rod.bending_stiffness, rod.natural_curvature()},
-                                     mesh.nodes, mesh.stages);
-  return bvp::make_collocation_arc(rod::KirchhoffDensity{rod.stiffness, rod.natural}, mesh.nodes,
-                                   mesh.stages);
+  return free_arc(rod, mesh);
 }
 
 /// Parity, under the half-turn, of a turn of the whole rod that costs nothing: a flat rod on isolated touches turns about
@@ -169,12 +182,14 @@ Chain::Gauges gauges(const RodKind& rod, const Topology& t) {
   if (rod.strut) {
     const bool touched = any_on_obstacle(rod, t, [](const obstacle::Surface&) { return true; });
     const bool pinned = rod.left != EndKind::clamped && rod.right != EndKind::clamped;
-    g.along = rod.under_thrust && !any_on_obstacle(rod, t, [](const obstacle::Surface& surface) {
-                return !surface.endless_along_x();
-              });
+    g.along =
+        rod.under_thrust && !rod.weighs[0] &&
+        !any_on_obstacle(rod, t, [](const obstacle::Surface& surface) { return !surface.endless_along_x(); });
     g.spin = pinned && rod.isotropic_straight();
     // A shape turns about the axis of its ends while each section turns back about its tangent, to keep clamped ends.
-    if (!touched && (rod.isotropic_straight() || pinned)) g.phase = rod.isotropic_straight() ? -1.0 : 0.0;
+    const bool upright = !rod.weighs[1] && !rod.weighs[2];  // nothing pulls it to a side
+    if (!touched && upright && (rod.isotropic_straight() || pinned))
+      g.phase = rod.isotropic_straight() ? -1.0 : 0.0;
     return g;
   }
   g.height = rod.spatial && rod.travel == Travel::none && !on_plate(rod, t);

@@ -77,6 +77,14 @@ Joint::Location Edge::location(const double*, const SmallVector& g_left, const S
   return c;
 }
 
+std::optional<Joint::Stretching> Edge::stretching(const double* w, const SmallVector& n,
+                                                  double compliance) const {
+  const double each = -stiffness_ * compliance;  // the circle's curvature a reference length is 1 + ε
+  const Eigen::Vector2d t(std::cos(w[0]), std::sin(w[0])), force = n;
+  return Stretching{each * force.dot(t), SmallVector::Constant(1, each * (force(1) * t(0) - force(0) * t(1))),
+                    each * t};
+}
+
 Attachment SurfaceSection::attach(Side, const double* w, const Loads&) const {
   Attachment at;
   at.q = Coordinates(0);

@@ -165,6 +165,19 @@ Joint::Location Edge::location(const double* w, const SmallVector& g_left, const
   return c;
 }
 
+std::optional<Joint::Stretching> Edge::stretching(const double* w, const SmallVector& n,
+                                                  double compliance) const {
+  constexpr int i = 2;  // place of ψ among the coordinates
+  const obstacle::Chart here = chart(w);
+  const double c = std::cos(w[i]), s = std::sin(w[i]);
+  const double each = stiffness_ * surface_->curvature() * compliance;
+  const Vector3d force = n, t = here.tangents * Vector2d(c, s);
+  Stretching out{each * c * c * force.dot(t), SmallVector::Zero(tangent()), each * c * c * t};
+  out.by_w.head<2>() = -each * c * c * force.dot(here.normal) * (here.bend * Vector2d(c, s));
+  out.by_w(i) = each * (c * c * force.dot(here.tangents * Vector2d(-s, c)) - 2.0 * c * s * force.dot(t));
+  return out;
+}
+
 void Edge::retract(const double* w, const double* dw, double* out) const {
   constexpr int i = 2;  // place of ψ among the coordinates
   out[0] = w[0] + dw[0];

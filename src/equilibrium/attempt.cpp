@@ -62,6 +62,9 @@ std::optional<Started> reach(const Started& from, const scene::Scene& scene, dou
   options.step = 0.02;
   options.step_max = 0.2;
   options.max_points = 3000;
+  // Weights are large numbers, in units of EI and a strut's length.
+  if (from.problem->keys().front().starts_with("rod.weight"))
+    options.parameter_scale = std::max(1.0, 0.2 * std::abs(goal - from.p(0)));
   // A branch that has turned and comes back past its start does not lead there.
   const double way = 0.1 * std::abs(goal - from.p(0));
   options.lower = std::min(goal, from.p(0)) - way;

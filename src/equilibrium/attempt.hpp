@@ -43,6 +43,18 @@ std::optional<Started> reach(const Started& from, const scene::Scene& scene, dou
 std::optional<Started> followed_coil(const scene::Scene& scene, bool spatial, bool half,
                                      const std::vector<std::string>& keys, std::string& failure);
 
+/// The scene of the rod that does not stretch, though its chain may.
+scene::Scene inextensible(scene::Scene scene);
+/// What a branch towards the rod that stretches is followed in.
+inline const std::vector<std::string> by_compliance{"rod.axial_compliance"};
+
+/// A strut's half chain near a given shape; nullopt where Newton does not converge.
+std::optional<Started> strut_near(const scene::Scene& scene, const chain::Profile& shape, double thrust,
+                                  const std::vector<std::string>& keys);
+/// Struts that stretch, at the scene's shortening, and struts that weigh. @throws NoEquilibrium
+Started stretched_strut(const scene::Scene& scene, bool half, const std::vector<std::string>& keys);
+Started weighted_strut(const scene::Scene& scene, bool half, const std::vector<std::string>& keys);
+
 /// A strut under the scene's thrust, or at its shortening. @throws NoEquilibrium
 Started straight_strut(const scene::Scene& scene, bool half, const std::vector<std::string>& keys);
 Started buckled_strut(const scene::Scene& scene, bool half, const std::vector<std::string>& keys);

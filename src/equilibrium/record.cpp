@@ -5,6 +5,7 @@
 
 #include "dense_samples.hpp"
 #include "record_drag.hpp"
+#include "windlass/bvp/collocation_table.hpp"
 #include "windlass/chain/self_distance.hpp"
 #include "windlass/obstacle/cylinder.hpp"
 #include "windlass/rod/quaternion.hpp"
@@ -211,7 +212,33 @@ Vector3d strand_direction(const Solution& solution, const JointRecord& joint) {
   return (joint.r - solution.joints.at(static_cast<std::size_t>(joint.partner)).r).normalized();
 }
 
-void measure_invariants(Solution& out, const chain::RodKind& kind) {
+namespace {
+
+/// −∫ w·r ds: the centre of each element's weight by its Lagrange points.
+double energy_of_weight(const chain::Profile& whole, const Vector3d& weight) {
+  double sum = 0.0;
+  for (const Piece& piece : whole.pieces) {
+    if (piece.stride < bvp::min_stages) continue;  // none of these weighs
+    const auto& table = bvp::CollocationTable::get(static_cast<int>(piece.stride));
+    const Eigen::VectorXd share = table.value.transpose() * table.weight;
+    for (Eigen::Index first = 0; first + piece.stride < piece.s.size(); first += piece.stride)
+      sum -= (piece.s(first + piece.stride) - piece.s(first)) *
+             weight.dot(piece.r.middleCols(first, piece.stride + 1) * share);
+  }
+  return sum;
+}
+
+double largest_stretch(const Solution& state, double compliance) {
+  double largest = 0.0;
+  for (const ArcRecord& arc : state.arcs)
+    for (Eigen::Index k = 0; k < arc.s.size(); ++k)
+      largest = std::max(largest, std::abs(arc.n.col(k).dot(rod::directors(arc.q.col(k)).col(2))));
+  return std::abs(compliance) * largest;
+}
+
+}  // namespace
+
+void measure_invariants(Solution& out, const chain::RodKind& kind, const contact::Loads& loads) {
   double h0 = 0.0, torque0 = 0.0, strands = 0.0;  // strands: torque that others have taken up to here
   Vector3d balance = Vector3d::Zero();
   bool first = true;
@@ -223,8 +250,10 @@ void measure_invariants(Solution& out, const chain::RodKind& kind) {
     for (Eigen::Index k = 0; k < arc.s.size(); ++k) {
       const Eigen::Matrix3d d = rod::directors(arc.q.col(k));
       const Vector3d m = d.transpose() * arc.m.col(k);
-      const double h =
-          0.5 * m.dot(m.cwiseQuotient(kind.stiffness)) + m.dot(kind.natural) + arc.n.col(k).dot(d.col(2));
+      const double tension = arc.n.col(k).dot(d.col(2));
+      double h = 0.5 * m.dot(m.cwiseQuotient(kind.stiffness)) + m.dot(kind.natural) + tension;
+      if (kind.stretches())
+        h += 0.5 * loads.compliance * tension * tension + loads.weight().dot(arc.r.col(k));
       const double torque = (arc.m.col(k) + arc.r.col(k).cross(arc.n.col(k)))(2) + strands;
       if (first) h0 = h, torque0 = torque, first = false;
       out.invariants.hamiltonian_drift = std::max(out.invariants.hamiltonian_drift, std::abs(h - h0));
@@ -289,7 +318,9 @@ Solution record(RodProblem& problem, const Vector& x, const Vector& p) {
     out.shortening = 1.0 - (last.r(0, last.r.cols() - 1) - out.arcs.front().r(0, 0)) / scene.rod.length;
     out.phi_star = 0.0;
   }
-  measure_invariants(out, problem.rod());
+  measure_invariants(out, problem.rod(), loads);
+  if (loads.compliance != 0.0) out.stretch = largest_stretch(out, loads.compliance);
+  if (loads.weighs()) out.weight_energy = energy_of_weight(whole, loads.weight());
   if (out.dragged) measure_drag(out, *scene.friction);
   out.error_estimate = problem.last_error();
   out.restart = restart_of(problem, x);

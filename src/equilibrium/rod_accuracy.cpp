@@ -53,6 +53,12 @@ bool outgrown(const chain::Chain& chain, const std::vector<chain::ArcMesh>& mesh
   return false;
 }
 
+/// What rounding leaves of the target of a rod that stretches, relative: the tension is EA times a strain, which is known to some
+/// digits of 1.
+double stretched_rounding(const Loads& at, double target) {
+  return rounding * std::max(1.0, 1.0 / std::abs(at.compliance * target));
+}
+
 /// Order of the arcs on a mesh, at their ends; a chain of formulas only never asks.
 double order_of(const std::vector<chain::ArcMesh>& meshes) {
   int stages = 1;
@@ -256,7 +262,9 @@ std::optional<Vector> RodProblem::remeshed_where_needed(const Vector& x, const V
   error_floor_ *= forgotten;
   const double too_large = excess(x, p);
   // A straight strut is exact on any mesh, which says nothing about its modes: their loads need the mesh it has.
-  const bool coarsen = too_large < superfluous && last_error_ > 1.5 * rounding;
+  const Loads at = loads(p);
+  const double noise = at.compliance == 0.0 ? rounding : stretched_rounding(at, target(*chain_, x, at));
+  const bool coarsen = too_large < superfluous && last_error_ > 1.5 * noise;
   if (too_large <= 1.0 && outgrown(*chain_, meshes_, x, loads(p), rod_.bending_stiffness))
     return moved_to(new_meshes(x, loads(p), 1.0), x, p, true);
   if (too_large <= 1.0 && !coarsen) return std::nullopt;

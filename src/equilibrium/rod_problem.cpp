@@ -30,6 +30,10 @@ double Loads::*field_of(const std::string& key) {
   if (key == "ends.twist") return &Loads::twist;
   if (key == "rod.radius") return &Loads::radius;
   if (key == "cylinder.friction") return &Loads::friction;
+  if (key == "rod.axial_compliance") return &Loads::compliance;
+  if (key == "rod.weight_x") return &Loads::weight_x;
+  if (key == "rod.weight_y") return &Loads::weight_y;
+  if (key == "rod.weight_z") return &Loads::weight_z;
   return nullptr;
 }
 
@@ -45,6 +49,8 @@ Loads loads_of(const scene::Scene& scene) {
   loads.twist = scene.ends.twist;
   loads.radius = scene.strand_radius();
   loads.friction = scene.dragging_friction();
+  loads.compliance = scene.rod.compliance();
+  std::tie(loads.weight_x, loads.weight_y, loads.weight_z) = std::tuple_cat(scene.rod.weight);
   return loads;
 }
 
@@ -78,6 +84,8 @@ chain::RodKind rod_of(const scene::Scene& scene, bool spatial) {
   rod.stiffness = {scene.rod.bending_stiffness_2, scene.rod.bending_stiffness,
                    scene.rod.twist_ratio * scene.rod.bending_stiffness};
   rod.natural = {0.0, -scene.rod.natural_curvature, scene.rod.natural_twist};
+  rod.extensible = scene.rod.extensible;
+  for (std::size_t k = 0; k < 3; ++k) rod.weighs[k] = scene.rod.weight[k] != 0.0;
   return rod;
 }
 
@@ -94,7 +102,13 @@ RodProblem::RodProblem(scene::Scene scene, bool spatial, Topology topology,
 
 void RodProblem::rebuild() {
   rod_ = rod_of(scene_, spatial_);
-  if (std::find(keys_.begin(), keys_.end(), "load.angle") != keys_.end()) rod_.pull_angle = NAN;
+  const auto varies = [&](const char* key) {
+    return std::find(keys_.begin(), keys_.end(), key) != keys_.end();
+  };
+  if (varies("load.angle")) rod_.pull_angle = NAN;
+  if (varies("rod.weight_x")) rod_.weighs[0] = true;
+  if (varies("rod.weight_y")) rod_.weighs[1] = true;
+  if (varies("rod.weight_z")) rod_.weighs[2] = true;
   base_ = loads_of(scene_);
   chain_ = chain::build_chain(rod_, topology_, meshes_);
   chain_->let_slide(slides_);

@@ -44,7 +44,7 @@ std::vector<Range> ranges(const scene::Scene& scene, double goal) {
 std::optional<Started> calm_state(scene::Scene scene, double load, bool spatial,
                                   const std::vector<std::string>& keys) {
   scene::set_parameter(scene, load_key(scene), load);
-  const bool half = scene.obstacles_keep_half_turn();
+  const bool half = scene.obstacles_keep_half_turn() && scene.weight_keeps_half_turn();
   std::string failure;
   try {
     std::optional<Started> start = scene.has_cylinder ? followed_coil(scene, spatial, half, keys, failure)
@@ -73,7 +73,7 @@ continuation::Options options_of(const Range& range) {
 double potential(const Solution& at, const scene::Scene& scene) {
   const ArcRecord &first = at.arcs.front(), &last = at.arcs.back();
   if (!at.has_cylinder)
-    return at.energy -
+    return at.energy + at.weight_energy -
            (scene.ends.shortening ? 0.0 : scene.load.thrust.value_or(0.0) * at.shortening * scene.rod.length);
   // The force at an end is the pull there.
   const double length = last.s(last.s.size() - 1) - first.s(0);

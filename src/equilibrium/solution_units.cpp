@@ -40,6 +40,7 @@ void multiply(Solution& solution, const scene::Units& units) {
   solution.end_force *= units.force;
   solution.end_moment *= units.moment;
   solution.energy *= units.energy;
+  solution.weight_energy *= units.energy;
   solution.z_span *= units.length;
   if (solution.self_distance) *solution.self_distance *= units.length;
   for (double& s : solution.self_s) s *= units.length;

@@ -145,7 +145,9 @@ Equilibria solve_strut(const scene::Scene& scene, const std::vector<std::string>
       return finish(best.at, "a strut may twist and leave the plane: Kirchhoff rod");
     });
   if (flat.index == 0)
-    return only(finish(*flat.rod, "the straight strut is stable under this thrust"), scene, 0);
+    return only(finish(*flat.rod, scene.rod.weighs() ? "the strut is stable under this thrust and its weight"
+                                                     : "the straight strut is stable under this thrust"),
+                scene, 0);
   return choose(scene, flat, keys, [&](FoundState& best) {
     return finish(best.at,
                   fmt::format("the straight strut is unstable under this thrust (index {})", flat.index));
@@ -222,7 +224,7 @@ std::string load_key(const scene::Scene& scene) {
 }
 
 bool thrust_undetermined(const scene::Scene& scene) {
-  return !scene.has_cylinder && scene.ends.shortening == 0.0;
+  return !scene.has_cylinder && scene.ends.shortening == 0.0 && scene.rod.compliance() == 0.0;
 }
 
 scene::Scene determinate(scene::Scene scene) {

@@ -91,7 +91,7 @@ std::vector<double> relaxing_pulls(const scene::Scene& scene) {
   return {std::clamp(scene.load.tension, loose, tight), 1.0, 1.5, 0.6};
 }
 
-/// A knot, relaxed at such a pull, then tightened or loosened.
+/// A knot, relaxed at such a pull as a rod that does not stretch, then stretched, then tightened or loosened.
 std::optional<Started> knot_start(const scene::Scene& scene, bool half, const std::vector<std::string>& keys,
                                   std::string& failure) {
   const knot::Curve curve = knot::start_curve(scene);
@@ -99,7 +99,11 @@ std::optional<Started> knot_start(const scene::Scene& scene, bool half, const st
   for (const double pull : relaxing_pulls(scene)) {
     scene::Scene at = scene;
     scene::set_parameter(at, key, pull);
-    const std::optional<Started> from = relaxed_start(at, curve, {key}, failure);
+    const double compliance = scene.rod.compliance();
+    std::optional<Started> from = compliance == 0.0
+                                      ? relaxed_start(at, curve, {key}, failure)
+                                      : relaxed_start(inextensible(at), curve, by_compliance, failure);
+    if (from && compliance != 0.0) from = reach(*from, at, compliance, true, {key}, failure);
     if (from) return reach(*from, scene, scene::get_parameter(scene, key), half, keys, failure);
   }
   return std::nullopt;
@@ -118,6 +122,10 @@ Started dragged_first(const scene::Scene& scene, const std::vector<std::string>&
 
 std::optional<Started> followed_coil(const scene::Scene& scene, bool spatial, bool half,
                                      const std::vector<std::string>& keys, std::string& failure) {
+  if (const double compliance = scene.rod.compliance(); compliance != 0.0) {
+    const auto rigid = followed_coil(inextensible(scene), spatial, half, by_compliance, failure);
+    return rigid ? reach(*rigid, scene, compliance, half, keys, failure) : std::nullopt;
+  }
   if (spatial && scene.strand_radius() > 0.0) return thick_coil(scene, half, keys, failure);
   Loads loads = loads_of(scene);
   if (scene.rod.infinite()) loads.half_length = 0.5 * loads.angle + 40.0 / std::sqrt(loads.tension);
@@ -135,10 +143,17 @@ Started cold_start(const scene::Scene& asked, bool spatial, bool half, const std
   const scene::Scene scene = scene::natural(asked);
   std::string failure;
   if (spatial && scene.slides()) return dragged_first(scene, keys);
+  if (const double compliance = scene.rod.compliance();
+      compliance != 0.0 && scene.has_cylinder && !scene.knot.tied()) {
+    const Started rigid = cold_start(inextensible(scene), spatial, half, by_compliance);
+    if (auto stretched = reach(rigid, scene, compliance, half, keys, failure)) return *stretched;
+    throw NoEquilibrium("the rod that stretches was not reached from the one that does not: " + failure);
+  }
   if (scene.knot.tied()) {
     if (auto knot = knot_start(scene, half, keys, failure)) return *knot;
     throw NoEquilibrium("no equilibrium of the knot was found: " + failure);
   }
+  if (!scene.has_cylinder && scene.rod.weighs()) return weighted_strut(scene, half, keys);
   if (!scene.has_cylinder)
     return scene.ends.shortening ? buckled_strut(scene, half, keys) : straight_strut(scene, half, keys);
   if (auto followed = followed_coil(scene, spatial, half, keys, failure)) return *followed;

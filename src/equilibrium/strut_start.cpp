@@ -10,9 +10,6 @@ namespace windlass::equilibrium {
 using chain::ArcMesh;
 using chain::Stretch;
 
-namespace {
-
-/// A strut's half chain near a given shape; nullopt where Newton does not converge.
 std::optional<Started> strut_near(const scene::Scene& scene, const chain::Profile& shape, double thrust,
                                   const std::vector<std::string>& keys) {
   // With order 12 and elements that turn by less than a radian the straight strut's buckling loads and the moment of
@@ -29,6 +26,8 @@ std::optional<Started> strut_near(const scene::Scene& scene, const chain::Profil
   if (used < 0) return std::nullopt;
   return Started{problem, x, p, used};
 }
+
+namespace {
 
 /// A moderate shortening at which the bow touches nothing. A shortening s bends a rod of length L by 2 L √s/π.
 double free_bow(const scene::Scene& scene) {
@@ -90,6 +89,7 @@ Started straight_strut(const scene::Scene& scene, bool half, const std::vector<s
 /// twist, reached by turning the ends.
 Started buckled_strut(const scene::Scene& scene, bool half, const std::vector<std::string>& keys) {
   const double goal = *scene.ends.shortening;
+  if (scene.rod.compliance() != 0.0) return stretched_strut(scene, half, keys);
   if (!(goal >
         0.0)) {  // straight: an inextensible rod carries any thrust up to buckling, and none is what it needs
     scene::Scene straight = scene;

@@ -21,7 +21,7 @@ Table points_table(PointColumns::Points& p) {
       {"phi_star", "rad", "half the angle between the outermost contacts", &p.phi_star},
       {"tilt", "rad", "inclination of the mid-point tangent to the plane z = 0", &p.tilt},
       {"z_span", "rho", "extent in z", &p.z_span},
-      {"energy", "EI/rho", "bending and twisting energy", &p.energy},
+      {"energy", "EI/rho", "energy of bending, twisting and stretching", &p.energy},
       {"self_distance", "rho", "closest approach of the rod to itself, where has_self_distance is 1",
        &p.self_distance},
       {"self_s1", "rho", "where, and", &p.self_s1},

@@ -207,6 +207,7 @@ ordered_json to_json(const Solution& solution, const scene::Scene& scene) {
   json["tilt"] = finite_or_null(solution.tilt);
   json["z_span"] = finite_or_null(solution.z_span);
   json["energy"] = finite_or_null(solution.energy);
+  if (scene.rod.extensible) json["stretch"] = finite_or_null(solution.stretch);
   json["self_distance"] = finite_or_null(solution.self_distance.value_or(std::nan("")));
   json["self_force"] = finite_or_null(solution.self_force);
   if (scene.has_obstacles() || scene.self_contact) json["contact"] = contact_json(solution);

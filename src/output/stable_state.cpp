@@ -77,7 +77,8 @@ std::optional<equilibrium::Solution> stable_state(const Run& run, const scene::S
     try {
       const equilibrium::Solution stored = run.points.get(point_name(row->branch, row->point, row->label));
       equilibrium::Solution solution = equilibrium::follow(scene, stored, "load.tension", tension);
-      if (solution.stability->index == 0) return solution;
+      // No count of directions knows a dragged state's stability: that of the stored points beside it stands.
+      if (solution.stability->index == 0 || solution.dragged) return solution;
     } catch (const std::runtime_error&) {  // lost on the way: the next neighbour may do better
     }
   }

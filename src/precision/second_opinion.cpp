@@ -86,7 +86,8 @@ OpinionStates default_states(const scene::Scene& scene) {
 }
 
 bool has_second_opinion(const scene::Scene& scene) {
-  return scene.has_cylinder && scene.strand_radius() > 0.0 && scene.free_of_torsion();
+  return scene.has_cylinder && scene.strand_radius() > 0.0 && scene.free_of_torsion() &&
+         scene.rod.compliance() == 0.0;
 }
 
 SecondOpinion second_opinion(const scene::Scene& scene, OpinionStates states, const StudyOptions& options) {

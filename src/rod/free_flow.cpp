@@ -11,12 +11,13 @@ Section free_flow(const Section& from, const Eigen::Vector3d& n, const Material&
   namespace odeint = boost::numeric::odeint;
   using State = std::vector<double>;  // r, m, q
   using Map = Eigen::Map<const Eigen::Vector3d>;
-  const auto slopes = [&](const State& y, State& dy, double) {
+  const auto slopes = [&](const State& y, State& dy, double s) {
     const Eigen::Map<const Quaternion> q(y.data() + 6);
     const Eigen::Matrix3d d = directors(q);
     const Eigen::Vector3d u = rod.natural + (d.transpose() * Map(y.data() + 3)).cwiseQuotient(rod.stiffness);
-    Eigen::Map<Eigen::Vector3d>(dy.data()) = d.col(2);
-    Eigen::Map<Eigen::Vector3d>(dy.data() + 3) = n.cross(d.col(2));
+    const Eigen::Vector3d here = n - s * rod.weight, slope = rod.stretch(here.dot(d.col(2))) * d.col(2);
+    Eigen::Map<Eigen::Vector3d>(dy.data()) = slope;
+    Eigen::Map<Eigen::Vector3d>(dy.data() + 3) = here.cross(slope);
     Eigen::Map<Quaternion>(dy.data() + 6) = 0.5 * increments(q) * u;
   };
   State y(10);

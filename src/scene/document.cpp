@@ -66,8 +66,10 @@ Entry make_entry(std::string key, std::string place, const toml::node& node) {
   } else {
     entry.shown = shown_as_it_stands(node);
     if (const auto* array = node.as_array())
-      for (const auto& element : *array)
+      for (const auto& element : *array) {
         if (const auto number = element.value<double>()) entry.numbers.push_back(*number);
+        entry.elements.push_back(make_entry(entry.key, entry.place, element));
+      }
   }
   return entry;
 }

@@ -22,6 +22,7 @@ struct Entry {
   std::variant<double, std::int64_t, bool, std::string, OtherValue> value;
   std::string shown;                 ///< the value as the user wrote it, for messages
   std::vector<double> numbers = {};  ///< of an array of numbers
+  std::vector<Entry> elements = {};  ///< of an array
 
   /// `capstan.toml:7: load.tension = -1: `, the beginning of every message about this entry.
   std::string prefix() const;

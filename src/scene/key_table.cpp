@@ -179,6 +179,63 @@ std::vector<Key> rod_keys() {
   };
 }
 
+template <std::size_t Component>
+Key weight_key(std::string_view name, std::string_view help) {
+  return {.name = name,
+          .dimension = Dimension::distributed,
+          .range = any,
+          .choices = {},
+          .help = help,
+          .get = [](const Scene& scene) -> std::optional<double> {
+            const double value = scene.rod.weight[Component];
+            return value != 0.0 ? std::optional(value) : std::nullopt;
+          },
+          .set = [](Scene& scene, double value) { scene.rod.weight[Component] = value; },
+          .is_parameter = true};
+}
+
+/// Rods that stretch, and rods that weigh. What a scene without them does not say is not written into it.
+std::vector<Key> stretch_keys() {
+  Key extensible{.name = "rod.extensible",
+                 .kind = ValueKind::truth,
+                 .range = any,
+                 .choices = {},
+                 .help = "may the rod stretch? true: by its axial stiffness; false, the default: not at all",
+                 .get = [](const Scene& scene) -> std::optional<double> {
+                   return scene.rod.extensible ? std::optional(1.0) : std::nullopt;
+                 },
+                 .set = [](Scene& scene, double value) { scene.rod.extensible = value != 0.0; }};
+  Key stiffness{
+      .name = "rod.axial_stiffness",
+      .dimension = Dimension::force,
+      .range = {.low = 0.0, .open_low = true, .allows_infinity = true},
+      .choices = {},
+      .help = "EA of an extensible rod; default: 4 EI/r^2, that of a solid round rod, from rod.radius",
+      .get = [](const Scene& scene) -> std::optional<double> {
+        return scene.rod.extensible ? std::optional(scene.rod.axial_stiffness) : std::nullopt;
+      },
+      .set = [](Scene& scene, double value) { scene.rod.axial_stiffness = value; },
+      .is_parameter = true};
+  Key compliance{
+      .name = "rod.axial_compliance",
+      .dimension = Dimension::compliance,
+      .range = not_negative,
+      .choices = {},
+      .help =
+          "1/EA instead of rod.axial_stiffness, to follow a branch in: 0 is the rod that does not stretch",
+      .get = [](const Scene& scene) -> std::optional<double> { return scene.rod.compliance(); },
+      .set = [](Scene& scene, double value) { scene.rod.axial_stiffness = 1.0 / value; },
+      .is_parameter = true,
+      .is_alias = true};
+  return {extensible,
+          stiffness,
+          compliance,
+          weight_key<0>("rod.weight_x",
+                        "of rod.weight = [x, y, z], the weight or another known force per length"),
+          weight_key<1>("rod.weight_y", "the same along e_y"),
+          weight_key<2>("rod.weight_z", "the same along e_z")};
+}
+
 std::vector<Key> load_keys() {
   Key friction{.name = "cylinder.friction",
                .range = not_negative,
@@ -307,7 +364,8 @@ std::vector<Key> method_keys() {
 std::span<const Key> keys() {
   static const std::vector<Key> table = [] {
     std::vector<Key> all;
-    for (auto&& part : {top_level_keys(), rod_keys(), load_keys(), plate_keys(), knot_keys(), method_keys()})
+    for (auto&& part : {top_level_keys(), rod_keys(), stretch_keys(), load_keys(), plate_keys(), knot_keys(),
+                        method_keys()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();

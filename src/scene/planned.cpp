@@ -20,9 +20,6 @@ struct Planned {
 };
 
 constexpr Planned planned[] = {
-    {"rod.extensible", "false", "stretch"},
-    {"rod.axial_stiffness", "\"inf\"", "stretch"},
-    {"rod.weight", "", "weight"},
     {"cylinder.friction_couple", "true", "the friction's couple"},
 };
 

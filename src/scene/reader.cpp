@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -175,6 +176,11 @@ class Resolver {
         scene_.model.kind == ModelKind::planar || scene_.model.kind == ModelKind::closed_form;
     if (!document_.find("rod.self_contact"))
       scene_.self_contact = scene_.rod_radius > 0.0 && !scene_.rod.infinite() && !thin_model;
+    const bool stiffness_given =
+        document_.find("rod.axial_stiffness") || document_.find("rod.axial_compliance");
+    if (scene_.rod.extensible && !stiffness_given && scene_.rod_radius > 0.0)
+      scene_.rod.axial_stiffness =
+          4.0 * scene_.rod.bending_stiffness / (scene_.rod_radius * scene_.rod_radius);
     if (!scene_.continuation) return;
     if (!document_.find("continuation.from"))
       scene_.continuation->from = get_parameter(scene_, scene_.continuation->parameter);
@@ -210,10 +216,34 @@ void drop_values_of_another_parameter(Document& document) {
 
 }  // namespace
 
+namespace {
+
+/// rod.weight = [x, y, z] as its three components, of which one that is given by itself has its own.
+void split_weight(Document& document) {
+  const auto found = std::find_if(document.entries.begin(), document.entries.end(),
+                                  [](const Entry& entry) { return entry.key == "rod.weight"; });
+  if (found == document.entries.end()) return;
+  const Entry weight = *found;
+  document.entries.erase(found);
+  if (weight.elements.size() != 3)
+    throw SceneError(weight.prefix() + "must be three forces per length, such as [0.0, -0.1, 0.0]");
+  for (std::size_t k = 0; k < 3; ++k) {
+    Entry component = weight.elements[k];
+    component.key = std::string("rod.weight_") + "xyz"[k];
+    const Entry* own = document.find(component.key);
+    if (own && (!of_the_file(*own) || of_the_file(weight))) continue;
+    std::erase_if(document.entries, [&](const Entry& entry) { return entry.key == component.key; });
+    document.entries.push_back(component);
+  }
+}
+
+}  // namespace
+
 Scene read_scene(const std::filesystem::path& path, std::span<const std::string> overrides,
                  const ReadOptions& options) {
   Document document = read_document(path, overrides);
   settle_planned(document);
+  split_weight(document);
   drop_values_of_another_parameter(document);
   if (options.restart)
     std::erase_if(document.entries,

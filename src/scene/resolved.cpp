@@ -29,7 +29,7 @@ std::string to_toml(const Scene& scene) {
   std::string out = "# written by windlass: every value resolved, numbers dimensionless\n";
   std::string table;
   for (const Key& key : keys()) {
-    if (!applies(scene, key)) continue;
+    if (key.is_alias || !applies(scene, key)) continue;
     std::string value;
     if (const std::string text = key.get_text ? key.get_text(scene) : ""; !text.empty()) value = quoted(text);
     if (const auto number = key.get ? key.get(scene) : std::nullopt)

@@ -8,8 +8,6 @@
 
 namespace windlass::scene {
 
-namespace {
-
 void forbid(const Document& document, const std::string& key, const std::string& why) {
   if (const Entry* entry = document.find(key)) throw SceneError(entry->prefix() + why);
 }
@@ -17,6 +15,8 @@ void forbid(const Document& document, const std::string& key, const std::string&
 bool starts_in(const Scene& scene, const std::string& key) {
   return scene.continuation && scene.continuation->parameter == key;
 }
+
+namespace {
 
 /// Where a symmetric half chain is asked for, the two ends must be alike.
 void check_ends(const Document& document, const Scene& scene) {
@@ -201,6 +201,8 @@ void check_rules(const Document& document, const Scene& scene, bool restart) {
   check_ends(document, scene);
   check_self_contact(document, scene);
   check_knot(document, scene);
+  check_stretch(document, scene);
+  check_weight(document, scene);
   check_sliding(document, scene);
   if (scene.continuation) check_continuation(document, scene, restart);
   for (const char c : {'/', '\0'})

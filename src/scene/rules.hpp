@@ -12,6 +12,15 @@ namespace windlass::scene {
 /// `capstan.toml:5: load.angle: missing; with [cylinder] ...`, at the line of the table it belongs to.
 SceneError missing(const Document& document, const std::string& key, const std::string& why);
 
+/// Refuses a key that is given. @throws SceneError
+void forbid(const Document& document, const std::string& key, const std::string& why);
+/// Is a branch followed in this key?
+bool starts_in(const Scene& scene, const std::string& key);
+
+/// Rules of rods that stretch and of rods that weigh, a part of check_rules().
+void check_stretch(const Document& document, const Scene& scene);
+void check_weight(const Document& document, const Scene& scene);
+
 /// @param restart  a branch begins at a stored point, wherever continuation.from is
 /// @throws SceneError for the first rule that does not hold
 void check_rules(const Document& document, const Scene& scene, bool restart);

@@ -79,6 +79,10 @@ const char* si_unit(Dimension dimension) {
       return "m-1";
     case Dimension::force:
       return "N";
+    case Dimension::compliance:
+      return "N-1";
+    case Dimension::distributed:
+      return "N m-1";
     case Dimension::stiffness:
       return "N m2";
     case Dimension::modulus:
@@ -105,6 +109,10 @@ std::string_view description(Dimension dimension) {
       return "a curvature such as \"20 1/m\"";
     case Dimension::force:
       return "a force such as \"2 N\" or a hung mass such as \"500 g\"";
+    case Dimension::compliance:
+      return "a compliance such as \"0.01 1/N\"";
+    case Dimension::distributed:
+      return "a force per length such as \"0.5 N/m\"";
     case Dimension::stiffness:
       return "a bending stiffness such as \"0.4e-3 N m^2\"";
     case Dimension::modulus:
@@ -165,6 +173,10 @@ double scale_of(const Units& units, Dimension dimension) {
       return 1.0 / units.length;
     case Dimension::force:
       return units.force;
+    case Dimension::compliance:
+      return 1.0 / units.force;
+    case Dimension::distributed:
+      return units.pressure;
     case Dimension::stiffness:
       return units.bending_stiffness;
     default:
@@ -194,7 +206,7 @@ Units natural_units(const Scene& scene) {
 Scene in_units(Scene scene, const Units& units) {
   const Key* parameter = scene.continuation ? find_key(scene.continuation->parameter) : nullptr;
   for (const Key& key : keys()) {
-    if (!key.get || !key.set) continue;
+    if (!key.get || !key.set || key.is_alias) continue;
     const bool of_parameter = key.dimension == Dimension::of_parameter;
     if (of_parameter && !parameter) continue;
     const double scale = scale_of(units, of_parameter ? parameter->dimension : key.dimension);

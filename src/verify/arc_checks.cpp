@@ -37,10 +37,14 @@ struct Gap {
   Gap(double v, double r) : value(v), rate(r) {}
   Gap(const Section& x, const Shape& shape)
       : value(shape.gap(x.r)), rate(shape.outward(x.r).dot(tangent(x))) {}
+  /// On a free arc: r' = λ t, n' = −weight.
   Gap(const Section& x, const Shape& shape, const Stiffness& law) : Gap(x, shape) {
     const Eigen::Matrix3d d = rotation(x.q);
     const Eigen::Vector3d t = d.col(2), slope = (d * law.strain(x)).cross(t);
-    bend = shape.outward(x.r).dot(slope) + shape.bend(x.r, t);
+    const double stretch = law.stretch(x), stretch_rate = law.k * (x.n.dot(slope) - law.weight.dot(t));
+    bend = stretch * shape.outward(x.r).dot(slope) + stretch_rate * rate +
+           stretch * stretch * shape.bend(x.r, t);
+    rate *= stretch;
   }
 };
 
@@ -85,6 +89,7 @@ struct Collected {
   Largest position, frame, moment, force, off_surface, pressure, arc_force;
   Smallest gap, smallest_pressure;
   std::vector<std::pair<double, double>> pressures;  // of the present line: place and pressure there
+  double virial = 0.0;
 };
 
 /// The rod lifts where a line pulls. A beam of EI = 1 under a suction of that depth and width, parabolic along it, rises by
@@ -127,7 +132,8 @@ struct Surroundings {
   const std::vector<Shape>& shapes;
   const Shape& below;
   double pressure(const Section& x) const {
-    return below.wall() ? plane_pressure(x, law, *below.wall()) : surface_pressure(x, law.K[0]);
+    if (below.wall()) return plane_pressure(x, law, *below.wall());
+    return law.stretches() ? stretched_surface_pressure(x, law) : surface_pressure(x, law.K[0]);
   }
 };
 
@@ -182,6 +188,7 @@ double integrate_piece(RodFlow& flow, const ArcRecord& arc, Eigen::Index i, cons
     if (growth * length < 1.0 || close(sections.back(), stored, scales)) {
       compare(sections.back(), stored, scales, found);
       look_along(sections, arc.s[i], length / looks, arc.kind, around, found);
+      found.virial += flow.virial();
       return flow.contact_force();
     }
   }
@@ -191,6 +198,7 @@ double integrate_piece(RodFlow& flow, const ArcRecord& arc, Eigen::Index i, cons
   if (!shadow.converged) found.position.add(NAN);
   look_along(shadow.stations, arc.s[i], length / static_cast<double>(shadow.stations.size() - 1), arc.kind,
              around, found);
+  found.virial += shadow.virial;
   return shadow.contact_force;
 }
 
@@ -212,7 +220,8 @@ void integrate(const ArcRecord& arc, const Surroundings& around, const Scales& s
 
 }  // namespace
 
-void check_arcs(const Solution& solution, const scene::Scene& scene, const Scales& scales, CheckList& list) {
+double check_arcs(const Solution& solution, const scene::Scene& scene, const Scales& scales,
+                  CheckList& list) {
   const Stiffness law(scene.rod);
   const std::vector<Shape> shapes = shapes_of(scene, solution.travel_rate);
   const Shape none = Shape::cylinder();  // of free arcs
@@ -235,7 +244,7 @@ void check_arcs(const Solution& solution, const scene::Scene& scene, const Scale
   list.at_most("arc_force", found.force.value(), tight, "integrated against stored n, / max(1, T)");
   if (found.gap.any())
     list.at_least("gap", found.gap.value(), -tight, "smallest distance of free arcs from the obstacles");
-  if (!any_line) return;
+  if (!any_line) return found.virial;
   list.at_most("on_surface", found.off_surface.value(), tight,
                "distance from the obstacle and slope to it on line arcs");
   list.at_least(
@@ -245,6 +254,7 @@ void check_arcs(const Solution& solution, const scene::Scene& scene, const Scale
                "stored p against p from the balance of forces, / max(1, T)");
   list.at_most("line_contact_force", found.arc_force.value(), tight,
                "stored force of line arcs against ∫ p ds, / (max(1, T) max(1, arc length))");
+  return found.virial;
 }
 
 }  // namespace windlass::verify

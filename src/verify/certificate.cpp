@@ -92,16 +92,19 @@ Certificate verify(const Solution& stored, const scene::Scene& given, const Stan
   if (!error.empty()) return list.take();
   Scales scales;
   scales.force = std::max(1.0, std::abs(solution.has_cylinder ? solution.T : solution.end_force));
+  const Stiffness law(scene.rod);
+  if (law.weighs()) scales.force = std::max(scales.force, law.weight.norm() * scene.rod.length);
   scales.moment = std::sqrt(scales.force);
   scales.tolerance = standard.tolerance;
+  double virial = 0.0;
   try {
-    check_arcs(solution, scene, scales, list);
+    virial = check_arcs(solution, scene, scales, list);
   } catch (const std::runtime_error& failure) {  // CVODE gives up on a damaged state
     list.at_most("integration", NAN, 0.0, failure.what());
   }
   check_joints(solution, scene, scales, list);
   check_ends(solution, scene, scales, list);
-  check_invariants(solution, scene, scales, list);
+  check_invariants(solution, scene, scales, virial, list);
   check_totals(solution, scene, scales, list);
   return list.take();
 }

@@ -25,8 +25,9 @@ bool on_plate(const equilibrium::ArcRecord& arc, const scene::Scene& scene);
 std::string structure_error(const equilibrium::Solution& solution);
 
 /// Integrates every arc again: match at the samples, gap, pressure, contact force of line arcs.
-void check_arcs(const equilibrium::Solution& solution, const scene::Scene& scene, const Scales& scales,
-                CheckList& list);
+/// @returns RodFlow::virial of the whole rod
+double check_arcs(const equilibrium::Solution& solution, const scene::Scene& scene, const Scales& scales,
+                  CheckList& list);
 /// Continuity at the joints and the contact forces there.
 void check_joints(const equilibrium::Solution& solution, const scene::Scene& scene, const Scales& scales,
                   CheckList& list);
@@ -34,8 +35,9 @@ void check_joints(const equilibrium::Solution& solution, const scene::Scene& sce
 void check_ends(const equilibrium::Solution& solution, const scene::Scene& scene, const Scales& scales,
                 CheckList& list);
 /// Conserved quantities over the whole rod.
+/// @param virial  that check_arcs() has found
 void check_invariants(const equilibrium::Solution& solution, const scene::Scene& scene, const Scales& scales,
-                      CheckList& list);
+                      double virial, CheckList& list);
 /// Agreement of the reported totals (R_tot, end_force, phi_star) with the stored rod.
 void check_totals(const equilibrium::Solution& solution, const scene::Scene& scene, const Scales& scales,
                   CheckList& list);

@@ -43,8 +43,9 @@ std::optional<Vector3d> along_all(const std::vector<scene::Wall>& walls) {
 
 /// The virial of all contact forces about the axis: with n·t = H − m·u/2 along the rod,
 /// R_tot + 2r Σ F_self = H L − E − [n·r] from end to end. Of rods without natural strains. (For long tails H is T, n·r the
-/// pull times the projection of the end's place on it, and this the identity of scaling all lengths.)
-void check_scaling(const Solution& solution, const scene::Scene& scene, const Scales& scales,
+/// pull times the projection of the end's place on it, and this the identity of scaling all lengths.) Stretch and weight add
+/// ∫ (ε n·t − 2 w·r) ds, for λ n·t = H − w·r − m·u/2 + ε n·t/2 then, and the weight has a virial, too.
+void check_scaling(const Solution& solution, const scene::Scene& scene, const Scales& scales, double virial,
                    CheckList& list) {
   const bool strained = scene.rod.natural_curvature != 0.0 || scene.rod.natural_twist != 0.0;
   if (!scene.walls.empty() || strained || solution.joints.back().kind == JointKind::infinity) return;
@@ -52,7 +53,7 @@ void check_scaling(const Solution& solution, const scene::Scene& scene, const Sc
   const double length = last.s(last.s.size() - 1) - first.s(0);
   const double h = Stiffness(scene.rod).hamiltonian(last_section(last));
   const double ends = last.r.rightCols<1>().dot(last.n.rightCols<1>()) - first.r.col(0).dot(first.n.col(0));
-  const double pulls = h * length - ends,
+  const double pulls = h * length - ends + virial,
                forces = solution.R_tot + 2.0 * scene.rod_radius * solution.self_force;
   const double size = std::max({scales.force, std::abs(pulls), forces, solution.energy});
   // Nothing but the mesh is in this: R_tot is asked for to model.tolerance.
@@ -64,7 +65,7 @@ void check_scaling(const Solution& solution, const scene::Scene& scene, const Sc
 }  // namespace
 
 void check_invariants(const Solution& solution, const scene::Scene& scene, const Scales& scales,
-                      CheckList& list) {
+                      double virial, CheckList& list) {
   const Stiffness law(scene.rod);
   Drift hamiltonian, torque, axial_force, twist;
   Largest free_force;
@@ -87,14 +88,18 @@ void check_invariants(const Solution& solution, const scene::Scene& scene, const
       const Section x = sample(arc, i);
       hamiltonian.add(law.hamiltonian(x) / scales.force);
       torque.add(((x.m + x.r.cross(x.n)).z() + strand_torque) / scales.force);
-      if (along) axial_force.add((x.n + strand_push).dot(*along) / scales.force);
+      // What the weight has taken of n up to here, and on this arc.
+      const Vector3d fallen = (arc.s[i] - solution.arcs.front().s[0]) * law.weight,
+                     here = (arc.s[i] - arc.s[0]) * law.weight;
+      if (along) axial_force.add((x.n + strand_push + fallen).dot(*along) / scales.force);
       twist.add(x.m.dot(tangent(x)) / scales.moment);
-      if (arc.kind == equilibrium::ArcKind::free) free_force.add((x.n - arc.n.col(0)).norm() / scales.force);
+      if (arc.kind == equilibrium::ArcKind::free)
+        free_force.add((x.n + here - arc.n.col(0)).norm() / scales.force);
     }
   }
   if (!dragged)
     list.at_most("hamiltonian_drift", hamiltonian.value(), tight, "range of H = m·u - W + n·d3, / max(1, T)");
-  if (!walls && solution.travel_rate == 0.0)
+  if (!walls && !law.weighs() && solution.travel_rate == 0.0)
     list.at_most("axial_torque_drift", torque.value(), tight, "range of (m + r×n)·e_z, / max(1, T)");
   if (along && !dragged)
     list.at_most("axial_force_drift", axial_force.value(), tight,
@@ -103,7 +108,7 @@ void check_invariants(const Solution& solution, const scene::Scene& scene, const
   const bool isotropic =
       scene.rod.bending_stiffness == scene.rod.bending_stiffness_2 && scene.rod.natural_curvature == 0.0;
   if (isotropic) list.at_most("twist_drift", twist.value(), tight, "range of m·d3, / max(1, sqrt(T))");
-  if (!dragged) check_scaling(solution, scene, scales, list);
+  if (!dragged) check_scaling(solution, scene, scales, virial, list);
   if (!solution.has_cylinder || solution.joints.back().kind != JointKind::infinity) return;
   const double at_end = law.hamiltonian(last_section(solution.arcs.back()));
   list.at_most("infinite_tail", std::abs(at_end - solution.T) / scales.force, tight,

@@ -15,7 +15,9 @@ using Eigen::Vector4d;
 
 Stiffness::Stiffness(const scene::Rod& rod)
     : K(rod.bending_stiffness_2, rod.bending_stiffness, rod.twist_ratio * rod.bending_stiffness),
-      u_hat(0.0, -rod.natural_curvature, rod.natural_twist) {}
+      u_hat(0.0, -rod.natural_curvature, rod.natural_twist),
+      k(rod.compliance()),
+      weight(rod.weight[0], rod.weight[1], rod.weight[2]) {}
 
 Vector3d Stiffness::strain(const Section& section) const {
   return (rotation(section.q).transpose() * section.m).cwiseQuotient(K) + u_hat;
@@ -28,8 +30,12 @@ double Stiffness::energy_density(const Section& section) const {
 
 double Stiffness::hamiltonian(const Section& section) const {
   const Vector3d m_body = rotation(section.q).transpose() * section.m;
-  return m_body.dot(strain(section)) - energy_density(section) + section.n.dot(tangent(section));
+  const double tension = section.n.dot(tangent(section));
+  return m_body.dot(strain(section)) - energy_density(section) + tension + 0.5 * k * tension * tension +
+         weight.dot(section.r);
 }
+
+double Stiffness::stretch(const Section& section) const { return 1.0 + k * section.n.dot(tangent(section)); }
 
 Eigen::Matrix3d rotation(const Vector4d& q) {
   return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
@@ -55,14 +61,38 @@ double surface_pressure(const Section& section, double bending_stiffness) {
   return -without_p / per_p;
 }
 
+double stretched_surface_pressure(const Section& section, const Stiffness& stiffness) {
+  const double B = stiffness.K[0], k = stiffness.k, stretch = stiffness.stretch(section);
+  const Vector3d &m = section.m, &n = section.n, t = tangent(section);
+  const Vector3d N(section.r.x(), section.r.y(), 0.0);
+  const auto across = [](const Vector3d& a, const Vector3d& b) { return a.head<2>().dot(b.head<2>()); };
+  const Vector3d w = m.cross(t) / B, m1 = stretch * n.cross(t), w1 = (m1.cross(t) + m.cross(w)) / B;
+  // h = N·t, N' = λ t_h; n' = −p N, n''·t = −p λ |t_h|²: where N·t = 0 the rate of p does not enter.
+  const auto third = [&](double p) {
+    const Vector3d n1 = -p * N;
+    const double stretch1 = k * (n1.dot(t) + n.dot(w)),
+                 stretch2 = k * (-p * stretch * across(t, t) + 2.0 * n1.dot(w) + n.dot(w1));
+    const Vector3d m2 = stretch1 * n.cross(t) + stretch * (n1.cross(t) + n.cross(w));
+    const Vector3d w2 = (m2.cross(t) + 2.0 * m1.cross(w) + m.cross(w1)) / B;
+    return stretch2 * across(t, t) + 5.0 * stretch1 * across(t, w) + 3.0 * stretch * across(w, w) +
+           4.0 * stretch * across(t, w1) + N.dot(w2);
+  };
+  const double none = third(0.0);
+  return -none / (third(1.0) - none);
+}
+
 double plane_pressure(const Section& section, const Stiffness& stiffness, const Vector3d& normal) {
   const Eigen::Matrix3d to_body = rotation(section.q).transpose();
   const Vector3d m = to_body * section.m, n = to_body * section.n, N = to_body * normal,
                  e3 = Vector3d::UnitZ();
   const auto strained = [&](const Vector3d& moment) { return Vector3d(moment.cwiseQuotient(stiffness.K)); };
   const Vector3d u = stiffness.strain(section);
-  const Vector3d m1 = n.cross(e3) - u.cross(m), u1 = strained(m1), n1 = -u.cross(n);
-  const Vector3d u2 = strained(n1.cross(e3) - u1.cross(m) - u.cross(m1)), u2_by_p = strained(-N.cross(e3));
+  const double stretch = stiffness.stretch(section);
+  const Vector3d n1 = -u.cross(n) - to_body * stiffness.weight;
+  const double stretch1 = stiffness.k * n1.z();  // the plane does not push along the rod
+  const Vector3d m1 = stretch * n.cross(e3) - u.cross(m), u1 = strained(m1);
+  const Vector3d u2 = strained(stretch * n1.cross(e3) + stretch1 * n.cross(e3) - u1.cross(m) - u.cross(m1)),
+                 u2_by_p = strained(-stretch * N.cross(e3));
   const Vector3d w = u.cross(e3), w1 = u1.cross(e3);  // t' = R w, t'' = R (u × w + w')
   const Vector3d third = u.cross(u.cross(w) + w1) + u1.cross(w) + u.cross(w1) + u2.cross(e3);
   return -N.dot(third) / N.dot(u2_by_p.cross(e3));
@@ -71,7 +101,7 @@ double plane_pressure(const Section& section, const Stiffness& stiffness, const 
 namespace {
 
 constexpr int free_size = 10;  // r, q, m; n is a constant of the arc
-constexpr int line_size = 14;  // r, q, m, n, ∫p
+constexpr int line_size = 14;  // r, q, m, n, ∫p; where the rod stretches or weighs its virial more
 
 template <int N>
 void put(double* place, const Eigen::Matrix<double, N, 1>& values) {
@@ -110,37 +140,49 @@ struct RodFlow::Memory {
   }
 
   bool on_surface() const { return kind == equilibrium::ArcKind::line; }
-  Section section(const double* y) const;
-  void rates(const double* y, double* rate) const;
-  static int right_hand_side(realtype, N_Vector y, N_Vector rate, void* user) {
-    static_cast<const Memory*>(user)->rates(N_VGetArrayPointer(y), N_VGetArrayPointer(rate));
+  bool loaded() const { return stiffness.stretches() || stiffness.weighs(); }
+  int virial_at() const { return on_surface() ? line_size : free_size; }
+  int size() const { return virial_at() + loaded(); }
+  Section section(const double* y, double s) const;
+  double pressure(const Section& x) const;
+  void rates(const double* y, double s, double* rate) const;
+  static int right_hand_side(realtype s, N_Vector y, N_Vector rate, void* user) {
+    static_cast<const Memory*>(user)->rates(N_VGetArrayPointer(y), s, N_VGetArrayPointer(rate));
     return 0;
   }
 };
 
-Section RodFlow::Memory::section(const double* y) const {
+Section RodFlow::Memory::section(const double* y, double s) const {
   Section section;
   section.r = Eigen::Map<const Vector3d>(y) + origin;
   section.q = Eigen::Map<const Vector4d>(y + 3);
   section.m = Eigen::Map<const Vector3d>(y + 7);
-  section.n = on_surface() ? Vector3d(Eigen::Map<const Vector3d>(y + 10)) : n;
+  section.n =
+      on_surface() ? Vector3d(Eigen::Map<const Vector3d>(y + 10)) : Vector3d(n - s * stiffness.weight);
   return section;
 }
 
-void RodFlow::Memory::rates(const double* y, double* rate) const {
-  const Section x = section(y);
+double RodFlow::Memory::pressure(const Section& x) const {
+  if (shape.wall()) return plane_pressure(x, stiffness, *shape.wall());
+  return stiffness.stretches() ? stretched_surface_pressure(x, stiffness)
+                               : surface_pressure(x, stiffness.K[0]);
+}
+
+void RodFlow::Memory::rates(const double* y, double s, double* rate) const {
+  const Section x = section(y, s);
   const Vector3d t = tangent(x);
-  put<3>(rate, t);
+  const double stretch = stiffness.stretch(x);
+  put<3>(rate, stretch * t);
   // q' = ½ q⊗(0,u): with q = (w, v) and u in the body frame, (-v·u, w u + v×u)/2
   const Vector3d u = stiffness.strain(x);
   const Vector3d v = x.q.tail<3>();
   rate[3] = -0.5 * v.dot(u);
   put<3>(rate + 4, 0.5 * (x.q[0] * u + v.cross(u)));
-  put<3>(rate + 7, x.n.cross(t));
+  put<3>(rate + 7, stretch * x.n.cross(t));
+  if (loaded()) rate[virial_at()] = (stretch - 1.0) * x.n.dot(t) - 2.0 * stiffness.weight.dot(x.r);
   if (!on_surface()) return;
-  const double p =
-      shape.wall() ? plane_pressure(x, stiffness, *shape.wall()) : surface_pressure(x, stiffness.K[0]);
-  put<3>(rate + 10, -p * shape.push(x.r, t));
+  const double p = pressure(x);
+  put<3>(rate + 10, -p * shape.push(x.r, t) - stiffness.weight);
   rate[13] = p;
 }
 
@@ -148,7 +190,7 @@ RodFlow::RodFlow(const Stiffness& stiffness, equilibrium::ArcKind kind, double t
     : memory_(std::make_unique<Memory>(stiffness, kind, shape)) {
   Memory& memory = *memory_;
   check(SUNContext_Create(nullptr, &memory.context), "context");
-  memory.state = N_VNew_Serial(memory.on_surface() ? line_size : free_size, memory.context);
+  memory.state = N_VNew_Serial(memory.size(), memory.context);
   if (memory.state == nullptr) throw std::runtime_error("CVODE: no memory for the state");
   N_VConst(0.0, memory.state);
   // Adams: smooth, not stiff over the distance between two samples, and no Jacobian to get wrong
@@ -179,6 +221,7 @@ void RodFlow::restart(const Section& start) {
     put<3>(y + 10, start.n);
     y[13] = 0.0;
   }
+  if (memory.loaded()) y[memory.virial_at()] = 0.0;
   memory.reached = 0.0;
   check(CVodeReInit(memory.cvode, 0.0, memory.state), "restart");
 }
@@ -187,8 +230,14 @@ Section RodFlow::advance(double s) {
   Memory& memory = *memory_;
   if (s > memory.reached)
     check(CVode(memory.cvode, s, memory.state, &memory.reached, CV_NORMAL), "integration");
-  return memory.section(N_VGetArrayPointer(memory.state));
+  return memory.section(N_VGetArrayPointer(memory.state), s);
 }
+
+double RodFlow::virial() const {
+  return memory_->loaded() ? N_VGetArrayPointer(memory_->state)[memory_->virial_at()] : 0.0;
+}
+
+bool RodFlow::weighs() const { return memory_->stiffness.weighs(); }
 
 bool RodFlow::on_wall() const { return memory_->shape.wall().has_value(); }
 

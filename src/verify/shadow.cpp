@@ -17,9 +17,10 @@ namespace {
 /// squares weighs them alike: r and q by 1, m by √T, n by T.
 class Packing {
  public:
-  Packing(equilibrium::ArcKind kind, const Section& reference, double growth)
+  /// @param constant  does n stay what it is?
+  Packing(bool constant, const Section& reference, double growth)
       : reference_(reference),
-        size_(kind == equilibrium::ArcKind::line ? 13 : 10),
+        size_(constant ? 10 : 13),
         moment_(std::max(1.0, growth)),
         force_(moment_ * moment_) {}
 
@@ -205,7 +206,7 @@ Shadow find_shadow(RodFlow& flow, equilibrium::ArcKind kind, const Section& firs
                    double h, double growth) {
   constexpr int most_pieces = 2000, most_iterations = 8;
   const int pieces = std::clamp(static_cast<int>(std::ceil(growth * h / 3.0)), 2, most_pieces);
-  const Packing packing(kind, first, growth);
+  const Packing packing(kind == equilibrium::ArcKind::free && !flow.weighs(), first, growth);
   Shooting shooting{packing, flow, h / pieces, {}};
   const bool round_cylinder = kind == equilibrium::ArcKind::line && !flow.on_wall();
   for (const Section& section : guesses(round_cylinder, first, last, h, pieces))
@@ -222,6 +223,7 @@ Shadow find_shadow(RodFlow& flow, equilibrium::ArcKind kind, const Section& firs
     if (k + 1 == shooting.stations.size()) break;
     shooting.lead(shooting.stations[k]);
     shadow.contact_force += flow.contact_force();
+    shadow.virial += flow.virial();
   }
   shadow.start = shadow.stations.front();
   shadow.end = shadow.stations.back();

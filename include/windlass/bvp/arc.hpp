@@ -32,7 +32,10 @@ struct ArcPoint {
   const double* n = nullptr;         ///< conserved force; forces() numbers
   double length = 0.0;               ///< ℓ > 0
   double friction = 0.0;             ///< mu of what the arc slips on; dragged arcs only
-  double travel = 0.0;  ///< ω: the rod runs along itself at ω times the speed of what slips on it
+  double travel = 0.0;      ///< ω: the rod runs along itself at ω times the speed of what slips on it
+  double compliance = 0.0;  ///< 1/EA of a rod that stretches; extensible arcs only
+  const double* weight =
+      nullptr;  ///< known force per length: n falls by it, and n is that of the start; null: none
 };
 
 /// Samples of an arc at all its Lagrange points, ends included.

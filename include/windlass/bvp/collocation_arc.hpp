@@ -14,7 +14,9 @@ namespace windlass::bvp {
 ///
 /// with first and second derivatives; `basis(q)` (ambient × tangent) spans the increments of a configuration, and
 /// `radial(q, g)` is the second derivative of the retraction contracted with an ambient gradient g (unit quaternions
-/// have one, plain coordinates have none).
+/// have one, plain coordinates have none). A density that says `stretches` is evaluated with the compliance 1/EA, too; its
+/// d = −∂L/∂n then depends on q' and n as well, and n may fall along the arc by a known force w a length, n(s) = n − w s
+/// (PHYSICS, "Rods that stretch").
 ///
 /// With N elements of M stages: (N·M − 1)·tangent interior unknowns, condensed to 2·tangent + forces + 1 at the ends, element by element
 /// and then node by node. Nothing is allocated after construction.
@@ -25,6 +27,7 @@ class CollocationArc final : public Arc {
   static constexpr int D = Density::tangent;
   static constexpr int P = Density::forces;
   static constexpr int E = 2 * D + P + 1;  ///< ends of an element: left node, right node, n, ℓ
+  static constexpr bool stretches = requires { Density::stretches; };
 
   CollocationArc(Density density, std::vector<double> mesh, int stages);
 
@@ -58,6 +61,29 @@ class CollocationArc final : public Arc {
   using Ambient = Eigen::Matrix<double, A, 1>;
   using Force = Eigen::Matrix<double, P, 1>;
 
+  /// L with its first derivatives; n is that of the place.
+  double first(const Ambient& q, const Ambient& slope, const Force& n, const ArcPoint& at,
+               Eigen::Matrix<double, 2 * A, 1>& gz, Force& d) const {
+    if constexpr (stretches)
+      return density_.first(q, slope, n, at.compliance, gz, d);
+    else
+      return density_.first(q, slope, n, gz, d);
+  }
+  /// How far along the arc Gauss point g of an element is.
+  double along(const ArcPoint& at, int element, int g) const {
+    return at.length * (mesh_[element] + (mesh_[element + 1] - mesh_[element]) * table_.gauss(g));
+  }
+  /// n at a Gauss point.
+  Force force_there(const ArcPoint& at, int element, int g) const {
+    Force n = Eigen::Map<const Force>(at.n);
+    if constexpr (stretches)
+      if (at.weight) n -= along(at, element, g) * Eigen::Map<const Force>(at.weight);
+    return n;
+  }
+  /// ℓ ∂n/∂ℓ·∂L/∂n at a Gauss point, in ∂S/∂ℓ.
+  double fallen(const ArcPoint& at, int element, int g, const Force& d) const {
+    return at.weight ? along(at, element, g) * Eigen::Map<const Force>(at.weight).dot(d) : 0.0;
+  }
   /// Pointer to the k-th configuration of the arc (0 the start, interior_nodes() + 1 the end).
   const double* node(const ArcPoint& at, int k) const;
   void gather(const ArcPoint& at, int element, Nodes& q) const;
@@ -66,9 +92,14 @@ class CollocationArc final : public Arc {
                         double& g_length) const;
   /// Hessian of one element's action, ordered interior, left, right, n, ℓ; lower triangle valid.
   void element_hessian(const Nodes& q, const ArcPoint& at, int element, Eigen::MatrixXd& k) const;
+  void vector_hessian(const Nodes& q, const ArcPoint& at, int element, Eigen::MatrixXd& k) const
+      requires(A > 1 && !stretches);
+  /// The same for a density that stretches.
+  void stretched_hessian(const Nodes& q, const ArcPoint& at, int element, Eigen::MatrixXd& k) const
+      requires(stretches);
   /// The same for A = 1, where a product for each pair of Lagrange points is all there is.
   void scalar_hessian(const Nodes& q, const ArcPoint& at, int element, Eigen::MatrixXd& k) const
-      requires(A == 1);
+      requires(A == 1 && !stretches);
   /// Stiffens the last node, about to be eliminated, where all that resists a motion of it has cancelled.
   /// @param parts  the size of the terms that its block is a sum of
   void hold_node(Eigen::MatrixXd& block, double parts);

@@ -149,6 +149,8 @@ class Chain {
   double arclength(const VectorXd& x, const Loads& loads, int joint) const;
   void set_arclength(VectorXd& x, int joint, double s) const;
   VectorXd force(const VectorXd& x, const Loads& loads, int link) const;
+  /// The same where the link ends: less by its weight. Not of links that slip.
+  VectorXd end_force(const VectorXd& x, const Loads& loads, int link) const;
   /// Outward point force on the rod at a touch, from the forces on its two sides; on the half-turn's axis the other side
   /// is the image of this one.
   double touch_force(const VectorXd& x, const Loads& loads, int joint) const;
@@ -161,9 +163,12 @@ class Chain {
     contact::Attachment left, right;
     VectorXd n;
     const double* interior = nullptr;
-    double length = 0.0, friction = 0.0, travel = 0.0;
+    double length = 0.0, friction = 0.0, travel = 0.0, compliance = 0.0;
+    VectorXd weight = {};  ///< conjugate to n; empty: none
     bvp::ArcPoint point() const {
-      return {left.q.data(), right.q.data(), interior, n.data(), length, friction, travel};
+      return {left.q.data(), right.q.data(), interior,
+              n.data(),      length,         friction,
+              travel,        compliance,     weight.size() > 0 ? weight.data() : nullptr};
     }
   };
   /// @throws std::domain_error if a tail's length is not positive.
@@ -272,9 +277,18 @@ class Chain {
     with_travel_.travel = x(slide_at_ + 1);
     return with_travel_;
   }
-  /// n where an arc ends.
-  static contact::SmallVector force_at_end(const Arc& arc, const contact::SmallVector& n,
-                                           const bvp::EndsVector& gradient);
+  /// n where a link ends.
+  contact::SmallVector force_at_end(const VectorXd& x, const Loads& loads, int link,
+                                    const contact::SmallVector& n, const bvp::EndsVector& gradient) const;
+  /// Weight of a link a length, conjugate to its n.
+  VectorXd weight_on(const Loads& loads, int link) const;
+  /// Adds how n falls with a link's length to what its end takes of it.
+  void add_weight(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads,
+                  int link, MatrixXd& dense) const;
+  /// What the stretch of the rod adds to a joint's location condition; `side` as in Joint::Location.
+  std::optional<Joint::Stretching> stretching(const VectorXd& x, const Loads& loads, int joint,
+                                              contact::Side side) const;
+  void add_stretching(const VectorXd& x, const Loads& loads, int joint, MatrixXd& dense) const;
   /// Adds a joint's terms to its balance equations, of the coordinates that vary.
   void add_kept(const contact::SmallVector& by_w, int joint, VectorXd& f) const;
   /// What the joint on one side of a link takes of a line's own normal force; see Joint::drag.
@@ -293,7 +307,7 @@ class Chain {
   /// Dense terms that do not come from an arc's condensed Hessian: curvature of attachments, closure, location.
   void add_joint_terms(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads,
                        int link, const bvp::EndsVector& gradient, MatrixXd& dense) const;
-  void add_locations(const VectorXd& x, MatrixXd& dense) const;
+  void add_locations(const VectorXd& x, const Loads& loads, MatrixXd& dense) const;
   void add_gauges(const Numbering& numbering, Purpose purpose, const VectorXd& x, MatrixXd& dense) const;
   /// An unknown of a dense block that acts on an arc's interior.
   struct Coupled {

@@ -59,7 +59,7 @@ struct Profile {
   At at(double s) const;
 };
 
-/// d²r/ds² at a sample.
+/// Curvature vector of the centre line at a sample, d²r/ds² in its own arclength.
 Eigen::Vector3d curvature(const rod::Material& material, const Piece& piece, Eigen::Index sample);
 
 Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod, const VectorXd& x,

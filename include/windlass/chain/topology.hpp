@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -91,7 +92,24 @@ struct RodKind {
   obstacle::Set obstacles{{obstacle::unit_cylinder()}};
   /// Natural unit of lengths along the rod, which thresholds are relative to: ρ, or a twentieth of a free rod.
   double unit_length = 1.0;
-  rod::Material material() const { return {bending_stiffness, stiffness, natural}; }
+  /// It may stretch: what its arcs are made for; how far is among the loads.
+  bool extensible = false;
+  /// It weighs in these directions, likewise.
+  std::array<bool, 3> weighs = {false, false, false};
+  bool weighs_at_all() const { return weighs[0] || weighs[1] || weighs[2]; }
+  bool stretches() const { return extensible || weighs_at_all(); }
+  rod::Material material() const {
+    rod::Material rod{bending_stiffness, stiffness, natural};
+    rod.stretches = stretches();
+    return rod;
+  }
+  /// With what the loads say of it.
+  rod::Material material(const Loads& loads) const {
+    rod::Material rod = material();
+    rod.compliance = loads.compliance;
+    rod.weight = loads.weight();
+    return rod;
+  }
   bool clamped() const { return left == EndKind::clamped || right == EndKind::clamped; }
   bool isotropic_straight() const { return stiffness(0) == stiffness(1) && natural.isZero(); }
 };

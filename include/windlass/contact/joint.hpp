@@ -34,6 +34,10 @@ struct Loads {
   double radius = 0.0;       ///< of the rod: its strands keep 2r apart [ρ]
   double friction = 0.0;     ///< mu of the cylinder that slips along the rod, towards +e_z; 0: it stands
   double travel = 0.0;       ///< ω: the rod runs along itself at ω times the cylinder's speed
+  double compliance = 0.0;   ///< 1/EA of a rod that stretches [ρ²/EI]
+  double weight_x = 0.0, weight_y = 0.0, weight_z = 0.0;  ///< known force per length [EI/ρ³]
+  Eigen::Vector3d weight() const { return {weight_x, weight_y, weight_z}; }
+  bool weighs() const { return weight_x != 0.0 || weight_y != 0.0 || weight_z != 0.0; }
 };
 
 enum class Side { left, right };  ///< the arc that ends here, the arc that starts here
@@ -116,6 +120,18 @@ class Joint {
   virtual Location location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const {
     (void)w, (void)g_left, (void)g_right;
     return {};
+  }
+
+  /// What the stretch of the rod adds to the location condition, and its derivatives.
+  struct Stretching {
+    double value = 0.0;
+    SmallVector by_w;  ///< tangent
+    SmallVector by_n;  ///< forces
+  };
+  /// @param n  force here in the arc on Location::side
+  virtual std::optional<Stretching> stretching(const double* w, const SmallVector& n,
+                                               double compliance) const {
+    return (void)w, (void)n, (void)compliance, std::nullopt;
   }
 
   /// Derivative of the dead potential −F·X with w, for joints that carry a load themselves (strut ends).

@@ -42,8 +42,9 @@ class Touch final : public VectorJoint {
 /// Equations 2: balance in a (tension and moment), curvature of the free arc equal to the circle's: m = EI (1 − κ̂).
 class Edge final : public VectorJoint {
  public:
-  /// @param line_moment  m on the circle, EI (1 − κ̂) [EI/ρ]
-  explicit Edge(Side line_side, double line_moment = 1.0) : line_(line_side), line_moment_(line_moment) {}
+  /// @param line_moment  m on the circle, EI (1 − κ̂) [EI/ρ]; EI ε more where the rod stretches
+  explicit Edge(Side line_side, double line_moment = 1.0, double bending_stiffness = 1.0)
+      : line_(line_side), line_moment_(line_moment), stiffness_(bending_stiffness) {}
   JointKind kind() const override { return JointKind::edge; }
   int tangent() const override { return 1; }
   bool locates() const override { return true; }
@@ -52,13 +53,15 @@ class Edge final : public VectorJoint {
   void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
                  SmallMatrix& out) const override;
   Location location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const override;
+  std::optional<Stretching> stretching(const double* w, const SmallVector& n,
+                                       double compliance) const override;
   const obstacle::Surface* surface() const override { return obstacle::unit_cylinder().get(); }
   Eigen::Vector2d on_surface(const double* w) const override { return {w[0], 0.0}; }
   void adopt(const Place& place, double* w) const override { w[0] = place.angle; }
 
  private:
   Side line_;
-  double line_moment_;
+  double line_moment_, stiffness_;
 };
 
 /// A section of a line contact, where the symmetry of a half chain meets it: w = (a).

@@ -65,7 +65,7 @@ class Touch final : public Joint {
 
 /// Edge of a line contact: w = (u, ψ, χ), 4 degrees of freedom, arclength unknown.
 /// Equations 5: forces along the surface (2), moments about N and d₃ (2), and the normal curvature of the free arc equal to
-/// the surface's,  B (u₁ sin χ + u₂ cos χ) = −B κ cos²ψ  with the strains u = K⁻¹ m + û.
+/// the surface's,  B (u₁ sin χ + u₂ cos χ) = −B κ cos²ψ  with the strains u = K⁻¹ m + û; (1 + ε) κ where the rod stretches.
 class Edge final : public VectorJoint {
  public:
   Edge(Side line_side, double bending_stiffness, SurfacePointer surface = obstacle::unit_cylinder(),
@@ -91,6 +91,8 @@ class Edge final : public VectorJoint {
   std::optional<Drag> drag(Side side, const double* w, const Loads& loads,
                            const SmallVector& g) const override;
   Location location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const override;
+  std::optional<Stretching> stretching(const double* w, const SmallVector& n,
+                                       double compliance) const override;
   void retract(const double* w, const double* dw, double* out) const override;
   const obstacle::Surface* surface() const override { return surface_.get(); }
   Eigen::Vector2d on_surface(const double* w) const override { return {w[0], w[1]}; }

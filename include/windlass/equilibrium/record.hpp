@@ -28,6 +28,6 @@ std::shared_ptr<RodProblem> reopen(const scene::Scene& scene, const Restart& res
                                    const std::vector<std::string>& keys);
 
 /// Largest drift of the invariants along the rod and the residual of the force balance; fills solution.invariants.
-void measure_invariants(Solution& solution, const chain::RodKind& kind);
+void measure_invariants(Solution& solution, const chain::RodKind& kind, const contact::Loads& loads);
 
 }  // namespace windlass::equilibrium

@@ -122,7 +122,9 @@ struct Solution {
   double phi_star = 0.0;         ///< half the angle between the outermost contacts [rad]
   double tilt = 0.0;             ///< inclination of the mid-point tangent to the plane z = 0 [rad]
   double z_span = 0.0;           ///< max z - min z over the rod [ρ]
-  double energy = 0.0;           ///< bending and twisting energy [EI/ρ]
+  double energy = 0.0;           ///< of bending, twisting and stretching [EI/ρ]
+  double stretch = 0.0;          ///< largest |ε| of a rod that stretches [-]
+  double weight_energy = 0.0;    ///< −∫ w·r ds of its weight [EI/ρ]; not kept in run folders
   /// Closest approach of the rod to itself, see chain::self_distance [ρ]; empty where it nowhere comes back to itself.
   std::optional<double> self_distance;
   std::array<double, 2> self_s = {0.0, 0.0};  ///< between these places

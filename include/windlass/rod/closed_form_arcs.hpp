@@ -31,6 +31,38 @@ class PlanarLineArc final : public bvp::Arc {
   double stiffness_, strain_;
 };
 
+/// The same of a rod that stretches by λ, k = 1/EA: on the circle its curvature is λ a reference length, and
+/// S/ℓ = stat_λ [½ B (λ − κ̂)² + (λ − 1)²/2k − λ n_a]. With N = n_a + B κ̂:
+///
+///     λ = (1 + k N)/(1 + k B),   S = ℓ [½ B κ̂² + ½ (B − 2N − k N²)/(1 + k B)],   n_t = (λ − 1)/k = (N − B)/(1 + k B),   p = λ n_t.
+class ExtensiblePlanarLineArc final : public bvp::Arc {
+ public:
+  explicit ExtensiblePlanarLineArc(double bending_stiffness = 1.0, double natural_curvature = 0.0)
+      : stiffness_(bending_stiffness), natural_(natural_curvature) {}
+  int ambient() const override { return 0; }
+  int tangent() const override { return 0; }
+  int forces() const override { return 1; }
+  void gradient(const bvp::ArcPoint& at, double* interior, bvp::EndsVector& ends) const override;
+  void factor(const bvp::ArcPoint& at, bvp::EndsMatrix& condensed) override;
+  void hessian(const bvp::ArcPoint& at, std::vector<Eigen::Triplet<double>>& entries) const override;
+  Eigen::VectorXd metric(const bvp::ArcPoint&) const override { return Eigen::VectorXd::Zero(2); }
+  bvp::ArcSamples sample(const bvp::ArcPoint& at) const override;
+  double energy(const bvp::ArcPoint& at) const override;
+  std::unique_ptr<bvp::Arc> remeshed(const std::vector<double>&, int) const override {
+    return std::make_unique<ExtensiblePlanarLineArc>(*this);
+  }
+  Eigen::VectorXd transfer(const bvp::ArcPoint&, const bvp::Arc&) const override { return {}; }
+
+ private:
+  double stiffness_, natural_;
+};
+/// λ of a planar rod on the unit circle under the axial torque n_a.
+inline double stretch_on_circle(double bending_stiffness, double natural_curvature, double torque,
+                                double compliance) {
+  return (1.0 + compliance * (torque + bending_stiffness * natural_curvature)) /
+         (1.0 + compliance * bending_stiffness);
+}
+
 /// Tail without torsion under the dead pull n, infinite or with a moment-free end: the elastica in the plane of n and the
 /// first tangent. With ψ the angle between them and R = √(B T), the infinite tail is the homoclinic one, tan(ψ/4) falls as
 /// exp(−√(T/B) s), and the action over the straight rod is

@@ -13,7 +13,7 @@ struct Section {
   Quaternion q;
 };
 
-/// The section a signed distance further along the rod, under the constant force n [EI/ρ²]; error about 1e-13.
+/// The section a signed distance further along the rod, n the force at `from` [EI/ρ²]; error about 1e-13.
 Section free_flow(const Section& from, const Eigen::Vector3d& n, const Material& rod, double distance);
 
 }  // namespace windlass::rod

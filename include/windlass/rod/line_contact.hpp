@@ -18,6 +18,11 @@ struct Material {
   double bending_stiffness = 1.0;                     ///< B, of an isotropic rod
   Eigen::Vector3d stiffness = {1.0, 1.0, 2.0 / 3.0};  ///< K [EI]
   Eigen::Vector3d natural = Eigen::Vector3d::Zero();  ///< û [1/ρ]
+  double compliance = 0.0;                            ///< 1/EA [ρ²/EI]
+  Eigen::Vector3d weight = Eigen::Vector3d::Zero();   ///< known force per length, world frame [EI/ρ³]
+  bool stretches = false;  ///< may it stretch, or weigh? What its arcs are made for
+  /// 1 + ε of a section with the tension n·d₃.
+  double stretch(double tension) const { return 1.0 + compliance * tension; }
 };
 
 /// @throws std::invalid_argument for a rod or an obstacle that has no density yet
@@ -39,7 +44,8 @@ Eigen::Vector2d line_forces(const obstacle::Surface& surface, const Eigen::Vecto
 
 /// Where the obstacle holds a straight part without any pressure, nothing but its own stiffness keeps the rod there: it
 /// comes off when the thrust P along it reaches the buckling load of a clamped rod of its length, 4π² K/ℓ².
-/// @returns 1 − P ℓ²/(4π² K), K the stiffness of bending off the obstacle; nothing for a line under pressure
+/// @returns 1 − P ℓ²/(4π² K), K the stiffness of bending off the obstacle, P (1 − P/EA) in the place of P where the rod
+///          stretches; nothing for a line under pressure
 std::optional<double> buckling_margin(const obstacle::Surface& surface, const Material& rod, double twist,
                                       double tension, double length);
 

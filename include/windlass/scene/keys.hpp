@@ -45,6 +45,8 @@ struct Key {
   void (*set_text)(Scene&, const std::string&) = nullptr;
 
   bool is_parameter = false;  ///< may be continued in: part of the mechanics, not of the method
+  bool is_alias =
+      false;  ///< another way to give the number of another key: neither converted nor written by itself
 
   std::string_view table() const;    ///< "load"; empty for top-level keys
   std::string_view leaf() const;     ///< "tension"

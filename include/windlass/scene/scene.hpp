@@ -27,6 +27,11 @@ struct Rod {
   double length = 0.0;               ///< whole rod [ρ]; infinity() for `length = "inf"`
   double natural_curvature = 0.0;  ///< κ̂ in the plane of the flat rod, > 0 the way round the cylinder [1/ρ]
   double natural_twist = 0.0;      ///< û₃ [1/ρ]
+  bool extensible = false;
+  double axial_stiffness = HUGE_VAL;  ///< EA of an extensible rod [EI/ρ²]
+  std::array<double, 3> weight{};     ///< force per length [EI/ρ³]
+  double compliance() const { return extensible ? 1.0 / axial_stiffness : 0.0; }  ///< 1/EA [ρ²/EI]
+  bool weighs() const { return weight != std::array<double, 3>{}; }
   bool infinite() const;
   bool isotropic_straight() const {
     return bending_stiffness_2 == bending_stiffness && natural_curvature == 0.0 && natural_twist == 0.0;
@@ -157,7 +162,12 @@ struct Scene {
   /// Is a half chain, symmetric under the half-turn, admitted?
   bool half_turn() const {
     return model.symmetry != Symmetry::none && ends.left_kind() == ends.right_kind() &&
-           obstacles_keep_half_turn();
+           obstacles_keep_half_turn() && weight_keeps_half_turn();
+  }
+  bool weight_keeps_half_turn() const {
+    const bool varies = continuation && (continuation->parameter == "rod.weight_x" ||
+                                         continuation->parameter == "rod.weight_z");
+    return rod.weight[0] == 0.0 && rod.weight[2] == 0.0 && !varies;
   }
   bool obstacles_keep_half_turn() const;
   /// Is there no torsion anywhere? Then the centre line alone is the rod, as the thick discrete rod has it.

@@ -12,6 +12,8 @@ enum class Dimension {
   length,        ///< m
   curvature,     ///< 1/m
   force,         ///< N, or a hung mass
+  compliance,    ///< 1/N
+  distributed,   ///< N/m
   stiffness,     ///< N m², bending stiffness
   modulus,       ///< Pa
   of_parameter,  ///< that of the key named by continuation.parameter

@@ -17,15 +17,21 @@ struct Section {
   Eigen::Vector3d n = Eigen::Vector3d::Zero();
 };
 
-/// Material law m_body = K (u - û), K = diag(EI1, EI2, GJ).
+/// Material law m_body = K (u - û), K = diag(EI1, EI2, GJ), and r' = (1 + k n·d3) d3.
 struct Stiffness {
   Eigen::Vector3d K = {1, 1, 1};
   Eigen::Vector3d u_hat = {0, 0, 0};
+  double k = 0.0;                      ///< 1/EA [ρ²/EI]
+  Eigen::Vector3d weight = {0, 0, 0};  ///< known force per length, world frame [EI/ρ³]
 
   explicit Stiffness(const scene::Rod& rod);
   Eigen::Vector3d strain(const Section& section) const;  ///< u, body frame [1/ρ]
   double energy_density(const Section& section) const;   ///< W = ½ (u-û)·K(u-û)
-  double hamiltonian(const Section& section) const;      ///< H = m·u - W + n·d3
+  /// H = m·u - W + n·d3 + k (n·d3)²/2 + weight·r
+  double hamiltonian(const Section& section) const;
+  double stretch(const Section& section) const;  ///< |r'| = 1 + k n·d3
+  bool stretches() const { return k != 0.0; }
+  bool weighs() const { return !weight.isZero(); }
 };
 
 Eigen::Matrix3d rotation(const Eigen::Vector4d& q);  ///< columns d1, d2, d3
@@ -39,17 +45,20 @@ Eigen::Vector3d tangent(const Section& section);     ///< d3
 /// where v_h is the horizontal part of v. This uses moments and forces only, not the surface coordinates that the
 /// solver uses, so it is an independent statement of the same mechanics.
 double surface_pressure(const Section& section, double bending_stiffness);
+/// The same of a rod that stretches by λ = 1 + k n·t, with λ t in the place of t as the slope of the centre line: h''' is linear
+/// in p, which is found from its values without any and with a unit of it.
+double stretched_surface_pressure(const Section& section, const Stiffness& stiffness);
 
 /// Contact force per length that keeps the centreline on a plane with the normal N, for any section and natural shape.
 ///
 /// The constraint N·t = 0 holds along the rod, and so does its third derivative, with t = R e₃ and R' = R [u]×. In the body
-/// frame, with m' = −u × m + n × e₃, n' = −u × n − p N and u = K⁻¹ m + û, p enters through u'' alone, linearly.
+/// frame, with m' = −u × m + λ n × e₃, n' = −u × n − p N − w and u = K⁻¹ m + û, p enters through u'' alone, linearly.
 double plane_pressure(const Section& section, const Stiffness& stiffness, const Eigen::Vector3d& normal);
 
 /// Integrates the balance laws along one arc with CVODE.
 ///
-/// free: r' = d3, q' = ½ q⊗(0,u), m' = n×d3, n constant. line: the same with n' = -p N and p = surface_pressure, or
-/// plane_pressure.
+/// free: r' = λ d3, q' = ½ q⊗(0,u), m' = n×r', n constant, or n' = -weight. line: the same with n' = -p N - weight and
+/// p = surface_pressure, or plane_pressure.
 /// Move-only owner of its CVODE memory.
 class RodFlow {
  public:
@@ -68,7 +77,10 @@ class RodFlow {
   Section advance(double s);
   /// ∫ p ds since the restart [EI/ρ²]
   double contact_force() const;
+  /// ∫ (ε n·d3 − 2 weight·r) ds since the restart: what stretch and weight have of the virial [EI/ρ]
+  double virial() const;
   bool on_wall() const;
+  bool weighs() const;
 
  private:
   struct Memory;

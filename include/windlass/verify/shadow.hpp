@@ -11,6 +11,7 @@ struct Shadow {
   std::vector<Section> stations;  ///< sections of the trajectory, both ends included, evenly spaced
   Section start, end;             ///< equal to stations.front() and stations.back()
   double contact_force = 0.0;     ///< ∫ p ds along it
+  double virial = 0.0;            ///< RodFlow::virial along it
   bool converged = false;
 };
 

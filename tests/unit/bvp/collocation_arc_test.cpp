@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "windlass/chain/guess.hpp"
+#include "windlass/rod/extensible_density.hpp"
 #include "windlass/rod/kirchhoff_density.hpp"
 #include "windlass/rod/planar_density.hpp"
 #include "windlass/rod/surface_density.hpp"
@@ -21,12 +22,17 @@ using Eigen::VectorXd;
 struct State {
   std::unique_ptr<Arc> arc;
   VectorXd z;
+  double compliance = 0.0;  ///< of arcs that stretch, which have a weight, too
+  VectorXd weight = {};
 
   int nodes() const { return arc->interior_nodes() + 2; }
   ArcPoint point(const VectorXd& at) const {
     const int a = arc->ambient();
-    return {at.data(), at.data() + (nodes() - 1) * a, at.data() + a, at.data() + nodes() * a,
-            at(at.size() - 1)};
+    ArcPoint p{at.data(), at.data() + (nodes() - 1) * a, at.data() + a, at.data() + nodes() * a,
+               at(at.size() - 1)};
+    p.compliance = compliance;
+    p.weight = weight.size() > 0 ? weight.data() : nullptr;
+    return p;
   }
   /// z moved by an increment ordered as the arc's own: interior, q_a, q_b, n, ℓ.
   VectorXd moved(const VectorXd& dz) const {
@@ -44,7 +50,7 @@ struct State {
     out.tail(arc->forces() + 1) += dz.tail(arc->forces() + 1);
     return out;
   }
-  /// S = ∫ W − n·d ds.
+  /// S = ∫ W − n·d ds, of an arc without weight.
   double action(const VectorXd& at) const {
     const ArcPoint p = point(at);
     const Eigen::Map<const VectorXd> n(p.n, arc->forces());
@@ -76,6 +82,14 @@ std::vector<State> states(int stages) {
   all.push_back(state(rod::PlanarDensity{1.4}, stages));
   all.push_back(state(rod::SurfaceDensity{1.2, 0.7}, stages));
   all.push_back(state(rod::KirchhoffDensity{{1.0, 1.5, 0.6}, {0.1, -0.2, 0.3}}, stages));
+  const auto stretching = [&](State one) {
+    one.compliance = 0.2;
+    all.push_back(std::move(one));
+  };
+  stretching(state(rod::Extensible<rod::PlanarDensity>{{1.4, 0.2}}, stages));
+  stretching(state(rod::Extensible<rod::SurfaceDensity>{{1.2, 0.7}}, stages));
+  stretching(state(rod::Extensible<rod::PlaneDensity>{{{1.0, 1.5, 0.6}, {0.1, -0.2, 0.3}}}, stages));
+  stretching(state(rod::Extensible<rod::KirchhoffDensity>{{{1.0, 1.5, 0.6}, {0.1, -0.2, 0.3}}}, stages));
   return all;
 }
 
@@ -119,6 +133,32 @@ BOOST_AUTO_TEST_CASE(hessian_is_the_second_derivative_of_the_action) {
           (s.action(s.moved(step * v)) - 2.0 * s.action(s.z) + s.action(s.moved(-step * v))) / (step * step);
       BOOST_TEST_CONTEXT("configurations of " << s.arc->ambient() << " numbers")
       BOOST_TEST(std::abs(v.dot(h * v) - second) < 1e-5 * h.norm() * v.squaredNorm());
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(hessian_is_the_slope_of_the_gradient_where_the_force_falls_along_the_arc) {
+  for (State& s : states(3)) {
+    if (s.compliance == 0.0) continue;
+    s.weight = VectorXd::LinSpaced(s.arc->forces(), 0.7, -0.4);
+    const MatrixXd h = dense_hessian(s);
+    const auto gradient = [&](const VectorXd& at) {
+      VectorXd all(s.size());
+      bvp::EndsVector ends;
+      s.arc->gradient(s.point(at), all.data(), ends);
+      all.tail(s.arc->ends()) = ends;
+      return all;
+    };
+    // Frames do not commute: of their rows the action along a line, v·h v, is compared, of the others all.
+    const bool frames = s.arc->ambient() == 4;
+    std::srand(7);
+    for (int sample = 0; sample < 10; ++sample) {
+      VectorXd v = VectorXd::Random(s.size());
+      if (frames) v.head(s.size() - s.arc->forces() - 1).setZero();
+      constexpr double step = 1e-5;  // differences err by step² and by 1e-16/step
+      const VectorXd difference = (gradient(s.moved(step * v)) - gradient(s.moved(-step * v))) / (2.0 * step);
+      BOOST_TEST_CONTEXT("configurations of " << s.arc->ambient() << " numbers")
+      BOOST_TEST((h * v - difference).norm() < 1e-7 * h.norm());
     }
   }
 }

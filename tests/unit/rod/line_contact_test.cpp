@@ -6,6 +6,7 @@
 
 #include "windlass/obstacle/cylinder.hpp"
 #include "windlass/obstacle/plane.hpp"
+#include "windlass/verify/rod_flow.hpp"
 
 namespace {
 
@@ -119,6 +120,38 @@ BOOST_AUTO_TEST_CASE(margin_against_buckling_off) {
   BOOST_TEST(rod::buckling_margin(plane, strip, 0.5 * M_PI, -critical, 0.3).value() == 0.95,
              boost::test_tools::tolerance(1e-13));  // on its edge 20 times as stiff
   BOOST_TEST(!rod::buckling_margin(*obstacle::unit_cylinder(), strip, 0.0, -critical, 0.3));
+}
+
+BOOST_AUTO_TEST_CASE(where_the_rod_stretches_or_weighs_the_pressure_is_that_of_the_certificate) {
+  // Its formulas know the constraint and the balances in space only.
+  scene::Rod rod;
+  rod.twist_ratio = 0.7;
+  rod.extensible = true;
+  rod.axial_stiffness = 5.0;
+  const obstacle::Plane wall({0.3, 1.0, -0.2}, 0.4);
+  const obstacle::Cylinder cylinder;
+  for (const obstacle::Surface* surface :
+       {static_cast<const obstacle::Surface*>(&cylinder), static_cast<const obstacle::Surface*>(&wall)}) {
+    const bool flat = surface->curvature() == 0.0;
+    if (flat) rod.weight = {0.2, -0.5, 0.3};
+    rod::Material material{1.0, {1.0, 1.0, 0.7}, Vector3d::Zero()};
+    material.compliance = rod.compliance();
+    material.weight = Vector3d(rod.weight[0], rod.weight[1], rod.weight[2]);
+    const Rod section{*surface, material, {0.9, 0.4}};
+    for (const double psi : {-0.4, 0.1, 0.7}) {
+      const At at{{0.5, 0.2}, {psi, 0.3}, {0.6, -0.25}};
+      const World w = section.world(at);
+      const Eigen::Quaterniond q(w.darboux * Eigen::AngleAxisd(0.3, Vector3d::UnitZ()).toRotationMatrix());
+      const verify::Section here{surface->chart(at.u).r, {q.w(), q.x(), q.y(), q.z()}, w.m, w.n};
+      const verify::Stiffness law(rod);
+      const double p = flat ? verify::plane_pressure(here, law, w.darboux.col(0))
+                            : verify::stretched_surface_pressure(here, law);
+      BOOST_TEST(w.pressure == p, boost::test_tools::tolerance(1e-11));
+      if (!flat)  // ε = n·t/EA makes the curvature of the line what the moment says
+        BOOST_TEST(-w.m.dot(w.darboux.col(1)) == law.stretch(here) * std::pow(std::cos(psi), 2),
+                   boost::test_tools::tolerance(1e-13));
+    }
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -111,8 +111,7 @@ BOOST_AUTO_TEST_CASE(parameters_a_branch_cannot_be_followed_in) {
 
 BOOST_AUTO_TEST_CASE(keys_to_come) {
   const TemporaryFolder folder;
-  for (const char* set : {"rod.extensible=true", "rod.axial_stiffness=100", "rod.weight=[0.0, 0.0, -1.0]",
-                          "cylinder.friction_couple=false"}) {
+  for (const char* set : {"cylinder.friction_couple=false"}) {
     const std::string message = refusal(folder, capstan, set),
                       key = std::string(set).substr(0, std::string(set).find('='));
     expect_named(message, key, set);
@@ -123,6 +122,35 @@ BOOST_AUTO_TEST_CASE(keys_to_come) {
        {"rod.extensible=false", "rod.axial_stiffness=inf", "rod.self_contact=false", "cylinder.sliding=none",
         "cylinder.friction_couple=true", "ends.travel=free", "knot.kind=none"})
     BOOST_TEST(refusal(folder, capstan, set) == "", set);
+}
+
+BOOST_AUTO_TEST_CASE(rods_that_stretch_or_weigh_where_they_cannot) {
+  const TemporaryFolder folder;
+  const std::string stretches = std::string(capstan) + "\n";  // [rod] is the first table
+  const auto both = [&](const char* first, const char* second) {
+    const std::string path = folder.write("scene.toml", stretches).string();
+    try {
+      read_scene(path, std::vector<std::string>{first, second});
+    } catch (const SceneError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  // Neither the stiffness nor a radius that it follows from.
+  BOOST_TEST(refusal(folder, capstan, "rod.extensible=true").find("rod.axial_stiffness: missing") !=
+             std::string::npos);
+  expect_named(refusal(folder, capstan, "rod.axial_stiffness=100"), "rod.axial_stiffness",
+               "rod.axial_stiffness=100");
+  expect_named(both("rod.extensible=true", "rod.axial_stiffness=0"), "rod.axial_stiffness",
+               "rod.axial_stiffness=0");
+  BOOST_TEST(both("rod.extensible=true", "rod.axial_stiffness=100") == "");
+  BOOST_TEST(both("rod.extensible=true", "rod.axial_compliance=0.01") == "");
+  BOOST_TEST(both("rod.extensible=true", "rod.radius=0.2") == "");
+  BOOST_TEST(refusal(folder, capstan, "rod.weight=[0.0, -1.0]").find("three forces per length") !=
+             std::string::npos);
+  const std::string weighs = refusal(folder, capstan, "rod.weight=[0.0, -1.0, 0.0]");
+  BOOST_TEST(weighs.find("rod.weight_y = -1: must be 0 with [cylinder]") != std::string::npos, weighs);
+  BOOST_TEST(refusal(folder, capstan, "rod.weight=[0.0, 0.0, 0.0]") == "");
 }
 
 BOOST_AUTO_TEST_CASE(another_parameter_takes_no_values_of_the_old_one) {

@@ -1,0 +1,147 @@
+// Rods that stretch and struts that weigh, as a user has them computed; strengths fitted on dragged states.
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "support/csv.hpp"
+#include "support/run_program.hpp"
+#include "windlass/rod/capstan.hpp"
+
+using namespace windlass::test;
+
+namespace {
+
+std::vector<std::string> with(std::vector<std::string> command, const std::vector<std::string>& settings) {
+  for (const std::string& setting : settings) command.insert(command.end(), {"--set", setting});
+  return command;
+}
+
+nlohmann::json solved(const std::string& scene, const std::vector<std::string>& settings) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      run_program(with({"solve", shipped_scene(scene), "--json"}, settings), folder.path());
+  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  return nlohmann::json::parse(outcome.out);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(stretch)
+
+BOOST_AUTO_TEST_CASE(silicone_stretches_and_its_core_holds_it) {
+  // EA ρ²/EI = 4 (ρ/r)² = 16 at R = r: the tails of 4.2 EI/ρ² stretch by T/EA, and nothing is stretched more.
+  const nlohmann::json soft = solved("capstan-vps-vps", {}),
+                       held = solved("capstan-vps-vps", {"rod.extensible=false"}),
+                       core = solved("capstan-vps-inext", {});
+  const double T = soft["parameters"]["T"];
+  BOOST_TEST(soft["stretch"].get<double>() == T / 16.0, boost::test_tools::tolerance(1e-6));
+  BOOST_TEST(held["R_tot"].get<double>() == core["R_tot"].get<double>());
+  BOOST_TEST(!held.contains("stretch"));
+  BOOST_TEST(soft["stability"]["index"] == 0);
+  BOOST_TEST(std::abs(soft["R_tot"].get<double>() / core["R_tot"].get<double>() - 1.0) > 1e-3);
+}
+
+BOOST_AUTO_TEST_CASE(branches_of_silicone_pass_their_certificates) {
+  const TemporaryFolder folder;
+  const std::string run = (folder / "run").string();
+  const Outcome branch =
+      run_program(with({"diagram", shipped_scene("capstan-vps-pom"), "--out", run, "--quiet"},
+                       {"continuation.from=300 g", "continuation.to=60 g"}),
+                  folder.path());
+  BOOST_REQUIRE_MESSAGE(branch.status == 0, branch.err);
+  const Outcome verified = run_program({"verify", run}, folder.path());
+  BOOST_TEST(verified.status == 0, verified.out);
+}
+
+BOOST_AUTO_TEST_CASE(a_branch_from_the_rod_that_does_not_stretch) {
+  const TemporaryFolder folder;
+  const std::string run = (folder / "run").string();
+  const Outcome branch = run_program(
+      with({"continue", shipped_scene("capstan-2pi"), "--out", run, "--quiet"},
+           {"rod.extensible=true", "model.kind=planar", "rod.length=60",
+            "continuation.parameter=rod.axial_compliance", "continuation.from=0", "continuation.to=0.1"}),
+      folder.path());
+  BOOST_REQUIRE_MESSAGE(branch.status == 0, branch.err);
+  const nlohmann::json last = solved(
+      "capstan-2pi", {"rod.extensible=true", "rod.axial_stiffness=10", "model.kind=planar", "rod.length=60"});
+  // PHYSICS, "Planar capstan that stretches", T = 1.
+  const double k = 0.1, tension = ((1.0 + k) / std::sqrt(1.0 + k) - 1.0) / k, beta = std::acos(tension);
+  BOOST_TEST(last["R_tot"].get<double>() == 2.0 * (tension * (M_PI - beta) + std::sin(beta)),
+             boost::test_tools::tolerance(1e-9));
+  const Outcome verified = run_program({"verify", run}, folder.path());
+  BOOST_TEST(verified.status == 0, verified.out);
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused_with_key_and_reason) {
+  const auto refused = [](const std::string& scene, const std::vector<std::string>& settings,
+                          const std::string& key, const std::string& reason) {
+    const TemporaryFolder folder;
+    const Outcome outcome = run_program(with({"solve", shipped_scene(scene)}, settings), folder.path());
+    BOOST_TEST(outcome.status == 1);
+    BOOST_TEST(contains(outcome.err, key), outcome.err);
+    BOOST_TEST(contains(outcome.err, reason), outcome.err);
+  };
+  refused("capstan-2pi", {"rod.extensible=true", "rod.axial_stiffness=50", "rod.length=inf"},
+          "rod.extensible = true", "must be false with rod.length = \"inf\"");
+  refused("capstan-2pi-plate", {"rod.extensible=true", "rod.axial_stiffness=50"}, "rod.extensible = true",
+          "not dragged yet");
+  refused("capstan-2pi", {"rod.weight=[0, 0, -1]"}, "rod.weight_z = -1",
+          "nothing carries weight along its axis");
+  refused("strut-thrust", {"rod.weight=[1, 0, 0]"}, "rod.weight_x = 1", "both ends are free");
+}
+
+BOOST_AUTO_TEST_CASE(friction_is_fitted_on_dragged_states) {
+  // The flat coil on its plate is dragged with mu R_tot of the closed form: another coefficient than the run's is found.
+  constexpr double mu = 0.2;
+  const TemporaryFolder folder;
+  const Outcome branch =
+      run_program(with({"continue", shipped_scene("capstan-2pi-plate"), "--out", "run", "--quiet"},
+                       {"rod.length=60", "continuation.to=1"}),
+                  folder.path());
+  BOOST_REQUIRE_MESSAGE(branch.status == 0, branch.err);
+  std::ostringstream data;
+  data.precision(14);
+  data << "T, F0\n";
+  for (const double T : {1.5, 3.0, 8.0})
+    data << T << ", " << mu * windlass::rod::capstan::total_force(T, 2.0 * M_PI) << "\n";
+  folder.write("data.csv", data.str());
+  const Outcome outcome =
+      run_program({"fit", "run", "--csv", "data.csv", "--json", "--format", "png"}, folder.path());
+  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  const auto fit = nlohmann::json::parse(outcome.out);
+  BOOST_TEST(fit["mu"].get<double>() == mu, boost::test_tools::tolerance(1e-7));
+}
+
+BOOST_AUTO_TEST_CASE(the_fit_follows_the_shape_that_friction_gives_a_helix) {
+  // Strengths of a helix dragged with one coefficient, fitted on its branch at another: R_tot of that branch would not do.
+  const TemporaryFolder folder;
+  const auto dragged = [&](const char* mu, const char* out) {
+    const Outcome branch = run_program(
+        with({"continue", shipped_scene("capstan-2pi-plate"), "--out", out, "--quiet"},
+             {"rod.length=14.283185307179586", "model.kind=kirchhoff", std::string("cylinder.friction=") + mu,
+              "continuation.from=1.01", "continuation.to=0.9"}),
+        folder.path());
+    BOOST_REQUIRE_MESSAGE(branch.status == 0, branch.err);
+    return read_csv(folder.path() / out / "branches.csv");
+  };
+  dragged("0.005", "run");
+  std::string data = "T, F0\n";
+  double ratio = 0.0;  // F0/R_tot says mu, whatever the shape, where the rod does not run along itself
+  for (const auto& row : dragged("0.009", "measured").rows) {
+    if (row.at("type") != "regular") continue;
+    data += row.at("T") + ", " + row.at("F0") + "\n";
+    ratio = std::stod(row.at("F0")) / std::stod(row.at("R_tot"));
+  }
+  BOOST_TEST(ratio == 0.009, boost::test_tools::tolerance(1e-9));
+  folder.write("data.csv", data);
+  const Outcome outcome =
+      run_program({"fit", "run", "--csv", "data.csv", "--json", "--format", "png"}, folder.path());
+  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  const auto fit = nlohmann::json::parse(outcome.out);
+  BOOST_TEST(fit["mu"].get<double>() == 0.009, boost::test_tools::tolerance(1e-7));
+  BOOST_TEST(fit["standard_error"].get<double>() < 1e-9);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
