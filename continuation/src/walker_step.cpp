@@ -36,10 +36,11 @@ bool Walker::leaves_branch(const Segment& segment, const Sample& end, std::strin
   return false;
 }
 
-// By the last two tangents, where they tell of a step this long.
+// By the last two tangents, where they tell of a step this long. A step that failed is tried again along the tangent.
 std::optional<Tangent> Walker::curvature(double ds) const {
   const Tangent &from = state_.previous_tangent, &to = state_.tangent;
-  if (!(state_.last_ds > 0.0) || from.x.size() != to.x.size()) return std::nullopt;
+  if (step_length_.after_rejection() || !(state_.last_ds > 0.0) || from.x.size() != to.x.size())
+    return std::nullopt;
   Tangent bend{(to.x - from.x) / state_.last_ds, (to.p - from.p) / state_.last_ds};
   const double turn = ds * std::sqrt(inner(*state_.problem, bend, bend, options_.scales()));
   if (!(turn < options_.max_angle)) return std::nullopt;
