@@ -72,6 +72,8 @@ bool Walker::advance_once(std::string& failure) {
   if ((options_.detect_folds || options_.detect_branch_points) && !is_vertical(segment, base, *end) &&
       state_.tangent.p * end->tangent.p < 0.0)
     turn = locate_fold(segment, base, *end);
+  // A walk that begins at a fold has it behind it: there the sign of the slope is rounding's.
+  if (turn && state_.points <= 1 && turn->s <= 10.0 * options_.location_tolerance) turn.reset();
   if (turn && long_step(end->s) && slope_jumps(base, *end, *turn))
     return failure = "the corrector has left the branch: the parameter's slope jumps", false;
   const CorrectorReport report = end->report;

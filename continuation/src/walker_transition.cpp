@@ -220,11 +220,14 @@ bool Walker::walk_back_to(double stop) {
     Segment segment(state_.problem, options_, state_.x, state_.p, back);
     // The parameter may change less and less towards the event.
     for (const double longer : {1.0, 1.5, 2.0, 3.0}) {
-      Sample* end = segment.at(longer * way / back.p, false);
-      if (!end) return false;
-      Sample* sample = way * (segment.parameter(*end) - stop) >= 0.0
-                           ? solution_at(segment, stop, segment.base(), *end)
-                           : nullptr;
+      const double length = longer * way / back.p;
+      Sample *end = segment.at(length, false), *sample = nullptr;
+      if (!end) {  // what lies beyond the stop may be too close to the event to be solved: on the chord to half-way
+        const Sample* half = segment.at(0.5 * length, false);
+        if (half) sample = segment.at_parameter(stop, segment.base(), *half, true);
+      } else if (way * (segment.parameter(*end) - stop) >= 0.0) {
+        sample = solution_at(segment, stop, segment.base(), *end);
+      }
       if (!sample) continue;
       segment.add_events(*sample);
       settle(segment, *sample);
