@@ -133,10 +133,10 @@ Statement search_statement(const std::vector<Search>& list, double fold) {
   }
   return {
       "—",
-      fmt::format(
-          "states off the plate at μ = 0.32, found by dragging every frictionless state that leaves the "
-          "plane: {}; none: {}",
-          some.empty() ? "none" : some, none),
+      fmt::format("states off the plate at μ = 0.32 that the states without friction lead to as the friction "
+                  "grows: {}; none: "
+                  "{}",
+                  some.empty() ? "none" : some, none),
       Verdict::remark,
       fmt::format("the search is not exhaustive{}", missed ? ": it misses the branch of 2π at a tension that "
                                                              "this reaches when it is followed"
