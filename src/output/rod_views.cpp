@@ -75,11 +75,17 @@ std::string plate_edge(const scene::Plate& plate, const Drum& drum, const View& 
   constexpr int sides = 240;
   const double radius = std::min(plate.outer_radius, window);
   std::string text = "\n\n# plate: right up\n";
+  bool broken = true;  // two empty lines would begin another block
   for (int k = 0; k <= sides; ++k) {
     const double a = 2.0 * M_PI * k / sides;
     const Vector3d at(radius * std::cos(a), radius * std::sin(a), plate.height);
     const Vector2d shown = view.project(at);
-    text += drum.hides(at, view) ? "\n" : data_line({shown.x(), shown.y()});
+    const bool hidden = drum.hides(at, view);
+    if (!hidden)
+      text += data_line({shown.x(), shown.y()});
+    else if (!broken)
+      text += "\n";
+    broken = hidden;
   }
   return text;
 }
