@@ -37,15 +37,6 @@ std::vector<double> meshes_of(const PullRequest& request, double tension) {
   return meshes;
 }
 
-/// The same rod before the pull: no friction, no plate.
-scene::Scene at_rest(scene::Scene scene) {
-  scene.motion = {};
-  scene.friction.reset();
-  scene.plate.reset();
-  scene.continuation.reset();
-  return scene;
-}
-
 std::string description(const PullRequest& request, const std::vector<double>& meshes) {
   return nlohmann::ordered_json{{"version", WINDLASS_VERSION},
                                 {"scene", request.scene.resolved_toml},
@@ -81,7 +72,7 @@ class PullRun {
   /// @return  false where it was interrupted or failed
   bool run(std::optional<PullFolder::Checkpoint> found) {
     const scene::Scene scene = scene::natural(request_.scene);
-    const equilibrium::Solution start = equilibrium::solve(at_rest(scene));
+    const equilibrium::Solution start = equilibrium::solve(pull::at_rest(scene));
     std::size_t first = 0;
     std::optional<pull::State> state;
     if (found && !found->meshes.empty()) {

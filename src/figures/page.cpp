@@ -77,7 +77,8 @@ std::filesystem::path write_page(const std::vector<Figure>& figures, const Study
       "computed anew, none is read off the paper.</p>\n"
       "<p>The model: an inextensible Kirchhoff rod, GJ/EI = 2/3, ends free of moment unless said otherwise, "
       "round a rigid "
-      "cylinder without friction in the wrapping plane; no plates, no deformation of its cross-section. "
+      "cylinder without friction in the wrapping plane and without plates, both but in the figure of the "
+      "sliding strength on a plate; no deformation of its cross-section. "
       "Rods are thin "
       "(they pass through themselves) in the figures of the paper's main text; in those on R/r they have "
       "their thickness "
@@ -102,8 +103,9 @@ std::vector<Figure> draw_all(const Study& study, const Canvas& canvas) {
     if (!(run.scene.rod_radius > 0.0))
       write_run_data(name, run, canvas);  // thick rods have files of their own
   std::vector<Figure> figures;
-  for (const auto& draw : {contact_force, strength, collapse, pressure, pressure_map, wrapping_angle,
-                           surgical_knot, radius_ratio, contact_set, crossing_map, thin_limit, clove_hitch})
+  for (const auto& draw :
+       {contact_force, strength, collapse, pressure, pressure_map, wrapping_angle, surgical_knot,
+        radius_ratio, contact_set, crossing_map, thin_limit, clove_hitch, sliding})
     figures.push_back(draw(study, canvas));
   return figures;
 }

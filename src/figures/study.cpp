@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "knot_runs.hpp"
+#include "sliding_data.hpp"
 #include "thick_runs.hpp"
 #include "windlass/output/stable_state.hpp"
 
@@ -27,6 +28,7 @@ std::vector<PlannedRun> planned_runs() {
   }
   for (PlannedRun& run : thick_runs()) runs.push_back(std::move(run));
   for (PlannedRun& run : knot_runs()) runs.push_back(std::move(run));
+  for (PlannedRun& run : sliding_runs()) runs.push_back(std::move(run));
   return runs;
 }
 

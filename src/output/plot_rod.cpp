@@ -106,7 +106,8 @@ std::vector<fs::path> plot_rod(const equilibrium::Solution& solution, const std:
                      drum_for(curve, options.rod_radius),
                      heights.force > 0.0 ? 0.8 / heights.force : 0.0,
                      heights.pressure,
-                     stroke};
+                     stroke,
+                     options.plate};
   const bool planar = solution.z_span < 1e-6;
   Picture picture{stem, planar ? 7.0 : 8.5, 6.0, heading(solution, title, heights.pressure, options.units)};
   const auto panel = [&](const char* suffix, const View& view, bool with_rim, double left, double right) {

@@ -68,6 +68,24 @@ std::array<std::string, 3> tube_blocks(const RodScene& scene, const View& view) 
 
 }  // namespace
 
+namespace {
+
+/// Where it shows, the edge of the plate, or of a larger one a circle on it that is as wide as the window.
+std::string plate_edge(const scene::Plate& plate, const Drum& drum, const View& view) {
+  constexpr int sides = 240;
+  const double radius = std::min(plate.outer_radius, window);
+  std::string text = "\n\n# plate: right up\n";
+  for (int k = 0; k <= sides; ++k) {
+    const double a = 2.0 * M_PI * k / sides;
+    const Vector3d at(radius * std::cos(a), radius * std::sin(a), plate.height);
+    const Vector2d shown = view.project(at);
+    text += drum.hides(at, view) ? "\n" : data_line({shown.x(), shown.y()});
+  }
+  return text;
+}
+
+}  // namespace
+
 std::string view_data(const RodScene& scene, const View& view) {
   const auto blocks = scene.is_thick() ? tube_blocks(scene, view) : line_blocks(scene, view);
   std::string text;
@@ -85,7 +103,8 @@ std::string view_data(const RodScene& scene, const View& view) {
   }
   const Drum& drum = scene.drum;
   return text + "\n\n# cylinder\n" + polygon(drum.outline(view)) + "# near rim\n" +
-         polygon(drum.rim(view, view.towards.z() >= 0.0 ? drum.high : drum.low)) + touches;
+         polygon(drum.rim(view, view.towards.z() >= 0.0 ? drum.high : drum.low)) + touches +
+         (scene.plate ? plate_edge(*scene.plate, drum, view) : "");
 }
 
 View side_view(const RodScene& scene) {
@@ -126,6 +145,7 @@ std::string view_commands(const RodScene& scene, const std::string& file, bool w
   text += " index 4 with filledcurves closed notitle lc rgb '#e8e8ec'";
   text += next + " index 4 with lines notitle lc rgb '#9a9aa4' lw 1";
   if (with_rim) text += next + " index 5 with lines notitle lc rgb '#9a9aa4' lw 1";
+  if (scene.plate && with_rim) text += next + " index 7 with lines notitle lc rgb '#b4b4be' lw 1.2";
   text += next + " index 1 using 1:2 with lines notitle lc rgb '#8a8a8a' lw 1.3 dt (4,4)";
   if (scene.is_thick()) {
     text += next + " index 2 " + tube_style;

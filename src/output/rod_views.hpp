@@ -1,11 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "windlass/equilibrium/solution.hpp"
 #include "windlass/output/rod_projection.hpp"
 #include "windlass/output/tube_view.hpp"
+#include "windlass/scene/scene.hpp"
 
 /// The rod round its cylinder as pictures: data and gnuplot commands of a view.
 namespace windlass::output {
@@ -19,13 +21,14 @@ struct RodScene {
   double arrow;             ///< length of an arrow over its force [ρ³/EI]
   double highest_pressure;  ///< [EI/ρ³]
   Stroke stroke;            ///< without a radius: a line
+  std::optional<scene::Plate> plate;
 
   bool is_thick() const { return stroke.radius > 0.0; }
 };
 
 /// Blocks of one view: 0 visible rod and 1 hidden rod (right, up), 2 visible line contact (right, up, p), 3
 /// point forces (right, up, the arrow, and its colour), 4 outline of the cylinder, 5 its near rim, 6 places
-/// where strands touch. Of a thick rod 0 and 2 are polygons (right, up, colour): what is before the cylinder,
+/// where strands touch, 7 with a plate: its edge, or a circle on it. Of a thick rod 0 and 2 are polygons (right, up, colour): what is before the cylinder,
 /// and what is not.
 ///
 /// gnuplot numbers blocks by the data they hold, so that an empty one still gets a line of missing values.

@@ -59,6 +59,14 @@ Setting setting_of(const scene::Scene& natural) {
   return out;
 }
 
+scene::Scene at_rest(scene::Scene scene) {
+  scene.motion = {};
+  scene.friction.reset();
+  scene.plate.reset();
+  scene.continuation.reset();
+  return scene;
+}
+
 Pull::Pull(const Setting& setting, double half_length, double h, const Options& options)
     : half_length_(half_length),
       h_(h),

@@ -49,6 +49,8 @@ Figure contact_set(const Study& study, const Canvas& canvas);   ///< wrapping an
 Figure crossing_map(const Study& study, const Canvas& canvas);  ///< where strands meet, in (T, R/r)
 Figure thin_limit(const Study& study, const Canvas& canvas);    ///< tilt and R_tot at 2π against r
 Figure clove_hitch(const Study& study, const Canvas& canvas);   ///< R_tot(T), R/r = 1, 2.5, 5
+Figure sliding(const Study& study,
+               const Canvas& canvas);  ///< F0/mu on a plate with friction in the shape; pulls
 
 /// All of them. @throws output::OutputError when a file cannot be written or gnuplot fails
 std::vector<Figure> draw_all(const Study& study, const Canvas& canvas);

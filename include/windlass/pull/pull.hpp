@@ -40,6 +40,9 @@ class StepSolver;
 /// The setting of a sliding scene in natural units.
 Setting setting_of(const scene::Scene& natural);
 
+/// The same rod before the pull: no friction, no plate.
+scene::Scene at_rest(scene::Scene scene);
+
 /// One pull on one mesh: quasi-static steps in the displacement from a relaxed frictionless state under the plate.
 ///
 /// Steps are equilibria at their end (`DraggedRod`); their length follows the iterations. Where there is no equilibrium

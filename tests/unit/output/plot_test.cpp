@@ -145,6 +145,30 @@ BOOST_AUTO_TEST_CASE(a_thick_rod_is_drawn_with_its_width) {
   BOOST_TEST(output::read_file(temporary / "thick.gp").find("between strands") != std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(a_plate_is_drawn_in_the_side_view) {
+  if (std::system("gnuplot --version > /dev/null 2>&1") != 0) return;
+  const test::TemporaryFolder temporary;
+  output::PlotOptions options;
+  options.formats = {"png@60"};
+  options.plate = scene::Plate{.height = 0.3};
+  auto solution = test::planar_capstan(1.0, two_pi);
+  solution.z_span = 0.3;  // as if it left its plane: those that do not have no side view
+  output::plot_rod(solution, "plate", options, temporary.path(), "plate");
+  std::istringstream data(output::read_file(temporary / "plate-side.dat"));
+  for (std::string line; std::getline(data, line) && line != "# plate: right up";) {
+  }
+  // A circle in a plane seen from 0.35 above it is an ellipse round the projection of its centre.
+  int places = 0;
+  double x = 0.0, y = 0.0, radius = 0.0;
+  for (std::string line; std::getline(data, line);) {
+    if (std::sscanf(line.c_str(), "%lf %lf", &x, &y) != 2) continue;
+    const double here = std::hypot(x, (y - 0.3 * std::cos(0.35)) / std::sin(0.35));
+    if (places++ == 0) radius = here;
+    BOOST_TEST(here == radius, boost::test_tools::tolerance(1e-6));
+  }
+  BOOST_TEST(places > 100);
+}
+
 BOOST_AUTO_TEST_CASE(a_locus_is_one_curve_without_stability) {
   if (std::system("gnuplot --version > /dev/null 2>&1") != 0) return;
   const test::TemporaryFolder temporary;
