@@ -116,8 +116,12 @@ void judge_pressures(const Scales& scales, Collected& found) {
   found.pressures.clear();
 }
 
-/// Places looked at between two samples, for the gap.
-constexpr int looks = 4;
+/// Places looked at between two samples, for the gap: the quintic between two of them is off by the sixth power of their distance.
+int looks_along(double growth_lengths) {
+  constexpr int least = 4;
+  constexpr double apart = 0.2;
+  return std::max(least, static_cast<int>(std::ceil(growth_lengths / apart)));
+}
 
 void compare(const Section& reached, const Section& stored, const Scales& scales, Collected& found) {
   found.position.add((reached.r - stored.r).norm());
@@ -183,6 +187,7 @@ double integrate_piece(RodFlow& flow, const ArcRecord& arc, Eigen::Index i, cons
   // plain integration, the cheap and direct way; after it has lost e^20 there is no point in trying
   if (growth * length < 20.0) {
     flow.restart(start);
+    const int looks = looks_along(growth * std::abs(length));
     for (int k = 1; k <= looks; ++k)
       sections.push_back(flow.advance(k == looks ? length : k * length / looks));
     if (growth * length < 1.0 || close(sections.back(), stored, scales)) {
