@@ -35,7 +35,7 @@ double distance(const std::vector<double>& a, const std::vector<double>& b,
 /// Rows without a break inside them.
 Rows smooth(const Rows& rows, const std::vector<const Axis*>& axes) {
   constexpr std::size_t least = 4;  // what the interpolation needs
-  constexpr double fine = 0.01;     // of the diagram
+  constexpr double fine = 0.02;     // of the diagram
   std::vector<double> at{0.0};
   Rows apart;  // without repeated places
   for (const auto& row : rows) {
@@ -47,7 +47,7 @@ Rows smooth(const Rows& rows, const std::vector<const Axis*>& axes) {
   if (apart.size() < least) return rows;
   std::vector<double> places;
   for (std::size_t i = 0; i + 1 < at.size(); ++i) {
-    const int parts = std::min(20, 1 + static_cast<int>((at[i + 1] - at[i]) / fine));
+    const int parts = std::min(10, 1 + static_cast<int>((at[i + 1] - at[i]) / fine));
     for (int j = 0; j < parts; ++j) places.push_back(at[i] + (at[i + 1] - at[i]) * j / parts);
   }
   places.push_back(at.back());

@@ -53,7 +53,7 @@ BOOST_AUTO_TEST_CASE(a_full_disk_is_an_answer_and_leaves_what_was_there) {
 BOOST_AUTO_TEST_CASE(pictures_are_whole_or_an_error) {
   const TemporaryFolder folder;
   make_run(folder);
-  // Room for the data, 8 kB, not for the picture, 40 kB; gnuplot itself says nothing.
+  // Room for the data, 20 kB, not for the picture, 100 kB; gnuplot itself says nothing.
   const Outcome outcome =
       run_program({"plot", "run", "--format", "png"}, folder.path(), "eval \"trap '' XFSZ; ulimit -f 40\";");
   BOOST_TEST(outcome.status == 2);
