@@ -48,8 +48,9 @@ continuation::Options options_of(const scene::Scene& scene) {
   options.parameter_scale = std::clamp(range / 5.0, 0.2, most);
   if (c.step > 0.0) options.step = c.step;
   if (c.step_min > 0.0) options.step_min = c.step_min;
-  // Longer steps save next to nothing, for more of them are refused, and leave few points on a branch to look at.
-  constexpr double usual_step_max = 0.25;
+  // Longer steps save next to nothing, for more of them are refused, and leave few points on a branch to look at. Points of
+  // rods that touch themselves cost ten times as much, and each of theirs counts.
+  const double usual_step_max = scene.strand_radius() > 0.0 ? 0.5 : 0.25;
   options.step_max = c.step_max > 0.0 ? c.step_max : usual_step_max;
   options.step = std::min(options.step, options.step_max);
   options.max_points = c.max_points;
