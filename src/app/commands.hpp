@@ -105,7 +105,7 @@ struct PullRequest {
   CommonOptions common;
   scene::Scene scene;
   std::vector<double> meshes;  ///< [ρ]; empty: chosen by the tension
-  double to = 50.0;            ///< largest displacement [ρ]
+  double to = 0.0;             ///< largest displacement [ρ]
   double step = 0.1;           ///< largest displacement a step [ρ]
   bool resume = false;
   std::vector<std::string> formats = {"png", "svg", "pdf"};

@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "app/commands.hpp"
+#include "windlass/pull/pull.hpp"
 #include "windlass/scene/reader.hpp"
 
 namespace windlass::app {
@@ -24,6 +25,7 @@ void add_pull(CommandLine& app, CommonOptions& common, int& status) {
   };
   const auto words = std::make_shared<Words>();
   PullRequest& request = words->request;
+  request.to = pull::usual_reach;
   command.add("SCENE", words->scene, "scene file (TOML) with cylinder.sliding").required().type("");
   command
       .add("--mesh", request.meshes,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -24,11 +23,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Coarsest first. Where the pull is strong bends are as short as 1/√T.
+/// Coarsest first.
 std::vector<double> meshes_of(const PullRequest& request, double tension) {
   std::vector<double> meshes = request.meshes;
   if (meshes.empty())
-    for (const double h : {0.14, 0.1, 0.07}) meshes.push_back(h * std::min(1.0, 1.0 / std::sqrt(tension)));
+    for (const double h : {0.14, 0.1, 0.07}) meshes.push_back(pull::mesh_under(tension, h));
   std::ranges::sort(meshes, std::greater());
   for (const double h : meshes)
     if (!(h > 0.0 && h <= 0.25)) throw InputError(fmt::format("--mesh: {:g}: must be in (0, 0.25]", h));

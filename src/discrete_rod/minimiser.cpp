@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "windlass/discrete_rod/energy.hpp"
-#include "windlass/petsc/handles.hpp"
+#include "windlass/petsc/direct_solver.hpp"
 
 namespace windlass::discrete_rod {
 
@@ -60,13 +60,8 @@ int descend(Energy& energy, double gradient_tolerance, VectorXd& x) {
   constexpr int most = 200;
   check(TaoSetMaximumIterations(tao, most));
   KSP ksp = nullptr;
-  PC pc = nullptr;
   check(TaoGetKSP(tao, &ksp));
-  if (ksp) {
-    check(KSPSetType(ksp, KSPPREONLY));
-    check(KSPGetPC(ksp, &pc));
-    check(PCSetType(pc, PCLU));
-  }
+  if (ksp) petsc::solve_directly(ksp);
   check(TaoSetFromOptions(tao));
   check(TaoSolve(tao));
   TaoConvergedReason reason = TAO_CONTINUE_ITERATING;

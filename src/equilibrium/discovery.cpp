@@ -8,7 +8,7 @@
 
 #include "nodal_rod.hpp"
 #include "windlass/obstacle/cylinder.hpp"
-#include "windlass/petsc/handles.hpp"
+#include "windlass/petsc/direct_solver.hpp"
 
 namespace windlass::equilibrium {
 
@@ -78,12 +78,8 @@ bool solve(NodalRod& rod, SNESType type, SNESLineSearchType search_type, int max
   check(SNESGetLineSearch(snes, &search));
   check(SNESLineSearchSetType(search, search_type));
   KSP ksp = nullptr;
-  PC pc = nullptr;
   check(SNESGetKSP(snes, &ksp));
-  check(KSPSetType(ksp, KSPPREONLY));
-  check(KSPGetPC(ksp, &pc));
-  check(PCSetType(pc, PCLU));
-  check(PCFactorSetMatSolverType(pc, MATSOLVERKLU));  // a narrow band of some 500: no dense fronts in it
+  petsc::solve_directly(ksp, MATSOLVERKLU);  // a narrow band of some 500: no dense fronts in it
   check(SNESSetFromOptions(snes));
   petsc::copy(x, solution);
   if (!finished(snes, solution)) return false;

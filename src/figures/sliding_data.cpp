@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "windlass/equilibrium/equilibria.hpp"
 #include "windlass/equilibrium/start.hpp"
@@ -70,8 +69,7 @@ namespace {
 
 /// From rest to the plateau, or to where the rod can no longer be followed.
 void pull_on(pull::Pull& rod, PullCurve& curve, const pull::Options& options) {
-  constexpr double longest = 50.0;  // [ρ], the default of `windlass pull`
-  while (!curve.at && rod.state().displacement < longest) {
+  while (!curve.at && rod.state().displacement < pull::usual_reach) {
     const auto row = rod.advance();
     if (!row || row->at.R_tot == 0.0) return;
     curve.rows.push_back(*row);
@@ -99,10 +97,10 @@ std::vector<PullCurve> pull_curves(const Study& study) {
       return stretch.lowest <= tension && tension <= stretch.highest;
     });
     PullCurve curve{tension, off, (off ? dragged : flat).stable_force(tension), {}, {}};
-    constexpr double coarse = 0.14;  // [ρ], as `windlass pull`; bends are as short as 1/√T
+    constexpr double coarse = 0.14;  // [ρ], as `windlass pull`
     const pull::Options options;
-    pull::Pull rod(pull::setting_of(scene), 0.5 * scene.rod.length,
-                   coarse * std::min(1.0, 1.0 / std::sqrt(tension)), options);
+    pull::Pull rod(pull::setting_of(scene), 0.5 * scene.rod.length, pull::mesh_under(tension, coarse),
+                   options);
     if (rod.start(equilibrium::solve(pull::at_rest(scene)))) pull_on(rod, curve, options);
     curves.push_back(std::move(curve));
   }

@@ -66,10 +66,6 @@ std::array<std::string, 3> tube_blocks(const RodScene& scene, const View& view) 
   return blocks;
 }
 
-}  // namespace
-
-namespace {
-
 /// Where it shows, the edge of the plate, or of a larger one a circle on it that is as wide as the window.
 std::string plate_edge(const scene::Plate& plate, const Drum& drum, const View& view) {
   constexpr int sides = 240;

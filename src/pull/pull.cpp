@@ -49,6 +49,8 @@ void Options::validate() const {
   if (!(steady > 0.0)) throw std::invalid_argument("pull: steady must be > 0");
 }
 
+double mesh_under(double tension, double h) { return h * std::min(1.0, 1.0 / std::sqrt(tension)); }
+
 Setting setting_of(const scene::Scene& natural) {
   Setting out;
   out.tension = natural.load.tension;

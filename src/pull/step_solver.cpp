@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "windlass/petsc/direct_solver.hpp"
+
 namespace windlass::pull {
 
 using petsc::check;
@@ -61,12 +63,8 @@ StepSolver::StepSolver(const DraggedRod& rod) : rod_(rod) {
   constexpr PetscInt most = 40, unlimited = -1;
   check(SNESSetTolerances(snes_, tolerance_of(rod.spline()), 0.0, 0.0, most, unlimited));
   KSP ksp = nullptr;
-  PC pc = nullptr;
   check(SNESGetKSP(snes_, &ksp));
-  check(KSPSetType(ksp, KSPPREONLY));
-  check(KSPGetPC(ksp, &pc));
-  check(PCSetType(pc, PCLU));
-  check(PCFactorSetMatSolverType(pc, MATSOLVERKLU));
+  petsc::solve_directly(ksp, MATSOLVERKLU);
   check(SNESSetFromOptions(snes_));
 }
 

@@ -136,8 +136,7 @@ class RodProblem final : public continuation::Problem {
     last_error_ = memory.error;
     nodal_floor_ = memory.nodal_floor;
     error_floor_ = memory.error_floor;
-    slides_ = memory.slides;
-    chain_->let_slide(slides_);
+    let_slide(memory.slides);
     sliding_off_ = memory.sliding_off;
     if (slides_) sliding_reference_ = memory.sliding_reference;
   }

@@ -19,6 +19,11 @@ struct Options {
   void validate() const;
 };
 
+/// Largest displacement unless another is asked for [ρ].
+inline constexpr double usual_reach = 50.0;
+/// Length of elements that are `h` under T <= 1 [ρ]: under more, bends are as short as 1/√T.
+double mesh_under(double tension, double h);
+
 /// The end of one step; natural units.
 struct Row {
   double displacement = 0.0;  ///< U, of the cylinder from rest [ρ]
