@@ -93,7 +93,12 @@ bool StoppingRule::last(double length, double residual, double state_size, bool 
   }
   const bool done = guess_ == Guess::far ? over(length, exhausted && !falls)
                                          : stagnant && (exhausted || length <= rounding);
-  const bool small = length <= tolerance || done;
+  // Corrections by an old factorisation shrink by a factor only. What the last one leaves is unseen in the metric, and more in
+  // places that the metric gives little weight (a short arc).
+  constexpr double unseen = 1e-3;
+  const bool quick = fresh || taken_ == 0 || stagnant || length * contraction(length) <= unseen * tolerance;
+  settling_ = length <= tolerance && !quick && !done;
+  const bool small = (length <= tolerance && quick) || done;
   // Where corrections are this small twice and F no longer falls, what is left of it is the rounding of its large terms
   // (those of an arc about to vanish, say).
   const bool rounded = taken_ > 0 && previous_ <= tolerance && length <= 0.1 * tolerance && !falls;
@@ -147,7 +152,7 @@ void iterate(BorderedSystem& system, const Options& options, CorrectorReport& re
       report.converged = true;
       return;
     }
-    if (++report.iterations > options.max_newton) {
+    if (!rule.settling() && ++report.iterations > options.max_newton) {
       std::ostringstream message;
       message << "no convergence in " << options.max_newton << " corrections (increment " << length
               << ", residual " << report.residual << ")";

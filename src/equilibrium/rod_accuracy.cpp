@@ -257,9 +257,12 @@ std::optional<Vector> RodProblem::laid_where_needed(const Vector& x, const Vecto
 std::optional<Vector> RodProblem::remeshed_where_needed(const Vector& x, const Vector& p) {
   // A mesh far finer than needed costs as much as one too coarse: shed when a quarter of it or more is superfluous.
   constexpr double superfluous = 1e-3, worthwhile = 0.75;
-  constexpr double forgotten = 0.9;  // a point: near an event rounding may be large, and soon is not
-  nodal_floor_ *= forgotten;
-  error_floor_ *= forgotten;
+  // Near an event rounding may be large, and soon is not: forgotten from point to point, and at once where an estimate is
+  // smaller by more than chance.
+  constexpr double forgotten = 0.9, by_chance = 10.0;
+  const double error = error_estimate(x, p);
+  nodal_floor_ = std::min(forgotten * nodal_floor_, by_chance * nodal_error_);
+  error_floor_ = std::min(forgotten * error_floor_, by_chance * error);
   const double too_large = excess(x, p);
   // A straight strut is exact on any mesh, which says nothing about its modes: their loads need the mesh it has.
   const Loads at = loads(p);

@@ -44,7 +44,7 @@ PetscErrorCode SnesSystem::judge(SNES, PetscInt, PetscReal, PetscReal, PetscReal
       if (self.done_) {
         if (!self.report_.factored_here) self.system_->add(self.correction_);
         *reason = SNES_CONVERGED_SNORM_RELATIVE;
-      } else if (++self.report_.iterations > self.most_corrections_) {
+      } else if (!self.rule_->settling() && ++self.report_.iterations > self.most_corrections_) {
         std::ostringstream message;
         message << "no convergence in " << self.most_corrections_ << " corrections (increment "
                 << self.report_.increment << ", residual " << self.report_.residual << ")";

@@ -106,6 +106,10 @@ class StoppingRule {
   /// @throws std::runtime_error if corrections grow (near guess) or run away (far guess)
   bool last(double length, double residual, double state_size, bool fresh);
 
+  /// Was the last correction small, and another one asked for only to see off what the metric does not see? Says nothing
+  /// about how hard the solve is, and is not counted.
+  bool settling() const { return settling_; }
+
   /// So small a correction need not be added: the factorisation then belongs to the state exactly.
   bool negligible(double length) const { return length <= 1e-3 * options_.newton_tolerance; }
 
@@ -116,6 +120,7 @@ class StoppingRule {
   const Options& options_;
   const Guess guess_;
   int taken_ = 0;
+  bool settling_ = false;
   double previous_ = 0.0, previous_residual_ = 0.0;
 };
 
