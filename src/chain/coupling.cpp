@@ -51,6 +51,7 @@ void Chain::add_strand_forces(const VectorXd& x, const Loads& loads, VectorXd& f
     pull_on(c.second, at.second, 1.0);
     f(numbering_.strand[k]) = -c.weight() * (at.distance - 2.0 * loads.radius);
     f(numbering_.location[c.second]) = at.direction.dot(at.second.t);
+    if (c.placed) continue;
     f(numbering_.location[c.first]) = at.direction.dot(at.first.t);
     if (c.begin < 0) continue;
     const double begin = arclength(x, loads, c.begin), whole = arclength(x, loads, c.end) - begin;
@@ -106,6 +107,7 @@ void Chain::add_couplings(Purpose purpose, const Numbering& numbering, const Vec
     const int conditions = c.with_itself() ? 1 : 2;
     for (int i = 0; i < conditions; ++i) {
       const Eigen::Index row = numbering.location[ends[i].joint];
+      if (i == 0 && c.placed) continue;
       if (i == 0 && c.begin >= 0) {
         dense(row, row) += 1.0;
         dense(row, numbering.location[c.begin]) -= 1.0 - c.part;

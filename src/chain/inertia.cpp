@@ -77,7 +77,7 @@ MatrixXd Chain::variation_matrix(Purpose purpose, const Numbering& numbering, co
   constexpr double nothing = 1e-7;  // [EI/ρ²], [EI/ρ³]
   for (int j = 0; j < joint_count(); ++j) {
     const Eigen::Index row = numbering.location[j];
-    if (row >= 0 && touch_force(x, loads, j) < nothing) dense(row, row) -= nothing;
+    if (row >= 0 && !shares_place(j) && touch_force(x, loads, j) < nothing) dense(row, row) -= nothing;
   }
   return dense;
 }

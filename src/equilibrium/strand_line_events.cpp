@@ -21,6 +21,7 @@ double nearer_between(const Profile& profile, const chain::Strands& strands, int
   double most = 0.0;
   for (const Contact& c : profile.contacts) {
     if (c.coupling < 0 || strands.line_of(c.joint) != line || !strands.inside_line(c.joint)) continue;
+    if (strands.pressed(c.joint) || strands.pressed(strands.partner(c.joint))) continue;
     const double h = span_of(profile, strands, c.joint);
     most = std::max(most, std::abs(c.force) * h * h * h / (192.0 * profile.material.bending_stiffness));
   }
@@ -53,16 +54,32 @@ ContactEvent spare_touches(const Profile& profile, const chain::Strands& strands
   return event;
 }
 
+bool pressed_before_end(const chain::Strands& strands, int link) {
+  const auto [begin, end] = strands.located_about(link, link + 1);
+  const auto presses = [&](int at, int other) {  // of the touches at the place of one joint
+    const int line = strands.line_of(other);
+    if (line < 0 || strands.inside_line(other)) return false;
+    for (int j = at - 1; j >= 0 && strands.welded(j); --j)
+      if (strands.pressed(j) && strands.line_of(j) == line) return true;
+    for (int j = at + 1; strands.welded(j - 1); ++j)
+      if (strands.pressed(j) && strands.line_of(j) == line) return true;
+    return false;
+  };
+  return presses(begin, end) || presses(end, begin);
+}
+
 std::optional<ContactEvent> laid_between(const Profile& profile, const chain::Strands& strands, int link) {
-  if (!strands.laid(link) && !strands.laid(link + 1)) return std::nullopt;
+  const bool pressed = pressed_before_end(strands, link);
+  if (!strands.laid(link) && !strands.laid(link + 1) && !pressed) return std::nullopt;
   const auto keeps = [&](int joint) { return strands.laid(joint) || !strands.inside_line(joint); };
   if (!keeps(link) || !keeps(link + 1)) return std::nullopt;  // located by tangency: it may meet the other
   const auto [begin, end] = strands.located_about(link, link + 1);
   ContactEvent event{ContactEvent::Kind::length, link, 1.0, profile.pieces[link].s(0)};
   const int named = line_of_several(strands, end - 1) < 0 ? end - 1 : begin;
+  event.redrawn = pressed;
+  const double least = pressed ? press_at_end : least_beside_strand;
   if (link == named)
-    event.value =
-        profile.pieces[end].s(0) - profile.pieces[begin].s(0) - least_beside_strand * profile.unit_length;
+    event.value = profile.pieces[end].s(0) - profile.pieces[begin].s(0) - least * profile.unit_length;
   return event;
 }
 

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "line_touches.hpp"
+#include "strand_line_events.hpp"
 #include "strand_successors.hpp"
 #include "strip.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
@@ -223,6 +224,8 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
       return after_pressure(event, strip, profile.pieces[event.place]);
     case Kind::length:
       if (profile.pieces[event.place].stretch == Stretch::tail) return {end_of_rod(strip)};
+      if (event.redrawn && pressed_before_end(chain::Strands(topology), event.place))
+        return {with_touches(skeleton_of(strip).strip.successor(), profile, topology)};
       if (const auto fewer = line_with_fewer_touches(profile, topology, event.place, strip)) return {*fewer};
       return after_skeleton(event, profile, topology, strip);
     case Kind::force:
@@ -284,6 +287,7 @@ Successor mirrored(const Successor& next, bool right_changed, int links) {
     if (image) out.strand = image_strand(next, joint);
     if (image) out.line = image_line(next, joint);
     if (image && out.part > 0.0) out.part = 1.0 - out.part;
+    if (image) out.shares = -out.shares;
     return out;
   };
   constexpr double middle = 1e-9;
@@ -333,6 +337,18 @@ void join_lines(Successor& next) {
   }
 }
 
+/// Does a touch say that it is at the place of one that is elsewhere now, or gone?
+bool parted(const Successor& next) {
+  const auto count = static_cast<int>(next.s.size());
+  for (int j = 0; j < count; ++j) {
+    const int shares = next.topology.seat(j).shares, at = j + shares;
+    if (shares != 0 &&
+        (at < 0 || at >= count || next.s[at] != next.s[j] || next.topology.seat(at).strand == 0))
+      return true;
+  }
+  return false;
+}
+
 bool symmetric(const Topology& topology, const std::vector<double>& s) {
   constexpr double same = 1e-4;  // short gaps amplify rounding; what is built on it is solved and checked
   if (topology.half ||
@@ -354,6 +370,7 @@ std::vector<Successor> successors(const ContactEvent& event, const Profile& prof
                                   const std::vector<double>& s) {
   std::vector<Successor> out;
   for (Successor& next : one_sided(event, profile, topology, s)) {
+    if (parted(next)) next = with_touches(skeleton_of(Strip(next)).strip.successor(), profile, topology);
     // Of a symmetric state mirror images go together.
     if (symmetric(topology, s) && !is_symmetric(next))
       out.push_back(mirrored(next, event.s > 0.0, static_cast<int>(profile.pieces.size())));
