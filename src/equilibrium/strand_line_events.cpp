@@ -58,7 +58,7 @@ bool pressed_before_end(const chain::Strands& strands, int link) {
   const auto [begin, end] = strands.located_about(link, link + 1);
   const auto presses = [&](int at, int other) {  // of the touches at the place of one joint
     const int line = strands.line_of(other);
-    if (line < 0 || strands.inside_line(other)) return false;
+    if (line < 0 || strands.inside_line(other) || strands.partner(at) < 0) return false;
     for (int j = at - 1; j >= 0 && strands.welded(j); --j)
       if (strands.pressed(j) && strands.line_of(j) == line) return true;
     for (int j = at + 1; strands.welded(j - 1); ++j)

@@ -18,7 +18,7 @@ double nearer_between_touches(const chain::Profile& profile, const chain::Topolo
 
 /// What is pressed on right before the end of a line has no touch there: the end itself takes it. From the second distance on it is laid
 /// without, at the first it is laid with one: F d²/3B of the rod's height over a span to the next touch is below what is carried [ρ].
-inline constexpr double press_apart = 3e-4, press_at_end = 1.5e-4;
+inline constexpr double press_apart = 6e-4, press_at_end = 4e-4;
 /// Is there such a touch at one end of what a link is of, and its line's end at the other?
 bool pressed_before_end(const chain::Strands& strands, int link);
 
