@@ -124,9 +124,13 @@ double Chain::slide_share(int joint) const {
 Chain::Numbering Chain::number(Purpose purpose) const {
   const bool equilibrium = purpose == Purpose::equilibrium, asymmetric = !half() || purpose == Purpose::odd;
   Numbering n;
-  const auto varies = [&](int j) {  // its place, in a variation
-    return joints_[j]->kind() == JointKind::touch && (locates(j) || purpose == Purpose::odd) &&
-           !along_strand(j);
+  // Does a joint's place vary, in a variation? Along a line strands touch at every place of the first, each where the second is
+  // nearest: that one's moves.
+  const auto varies = [&](int j) {
+    const int k = coupling_of_[j];
+    const bool fixed =
+        k >= 0 && couplings_[k].along && (couplings_[k].first == j || couplings_[k].with_itself());
+    return joints_[j]->kind() == JointKind::touch && (locates(j) || purpose == Purpose::odd) && !fixed;
   };
   for (int j = 0; j < joint_count(); ++j) {
     if (shares_place(j)) {

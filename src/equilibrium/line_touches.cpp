@@ -208,7 +208,10 @@ class Layer {
         for (const double s : places(line, k, needed)) add(line, course, s, shared);
       }
       constexpr double half = 0.5;  // of what is between two touches
-      if (line.own_image && needed > half && (course.pressed() || finer_ > 1.0)) {
+      const std::size_t last = line.s.size() - 1;
+      const double beside = line.by_first ? line.s[last] - line.s[last - 1] : line.s[1] - line.s[0];
+      if (line.own_image && needed > half && beside > apart_from_middle * profile_.unit_length &&
+          (course.pressed() || finer_ > 1.0)) {
         const double middle = clear_of(strip_, line.by_first ? line.s.back() : line.s.front());
         add_pair(strip_, middle, middle, line.image, true, {0, strand_++, 0.5, line.mark});
       }
@@ -236,7 +239,8 @@ class Layer {
         if (std::pair(other.s[i], other.s[i + 1]) != bounds) continue;
         const bool fresh = strip_.parts[strip_.part_at(0.5 * (bounds.first + bounds.second))].fresh;
         if (fresh && other.s.size() == 2) continue;  // a line that has no length yet
-        const std::array presses{i > 0, i + 2 < other.s.size()};
+        const std::array presses{i > 0 && strand_presses(strip_, bounds.first),
+                                 i + 2 < other.s.size() && strand_presses(strip_, bounds.second)};
         double links = 0.0;
         const std::vector<double> own = laid_out(course_of(other), bounds.first, bounds.second, presses,
                                                  profile_.material.bending_stiffness, finer_, links);

@@ -224,7 +224,7 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
       return after_pressure(event, strip, profile.pieces[event.place]);
     case Kind::length:
       if (profile.pieces[event.place].stretch == Stretch::tail) return {end_of_rod(strip)};
-      if (event.redrawn && pressed_before_end(chain::Strands(topology), event.place))
+      if (event.redrawn && laid_anew_at(chain::Strands(topology), event.place))
         return {with_touches(skeleton_of(strip).strip.successor(), profile, topology)};
       if (const auto fewer = line_with_fewer_touches(profile, topology, event.place, strip)) return {*fewer};
       return after_skeleton(event, profile, topology, strip);
