@@ -111,7 +111,7 @@ std::optional<ContactEvent> laid_between(const Profile& profile, const chain::St
 double carried_pull(const Profile& profile, const chain::Strands& strands, int joint) {
   if (!strands.inside_line(joint)) return 0.0;
   const double h = span_of(profile, strands, joint);
-  return 12.0 * carried_between_strands * profile.material.bending_stiffness / (h * h * h);
+  return 12.0 * opened_between_strands * profile.material.bending_stiffness / (h * h * h);
 }
 
 }  // namespace windlass::equilibrium

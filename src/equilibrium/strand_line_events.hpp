@@ -36,6 +36,11 @@ std::optional<LaidAnew> laid_anew_at(const chain::Strands& strands, int link);
 std::optional<ContactEvent> laid_between(const chain::Profile& profile, const chain::Strands& strands,
                                          int link);
 
+/// How far apart strands would come where a touch inside a line of theirs pulls [ρ]. Where the cylinder's point force at the edge of
+/// a line on it pushes a strand off the other, by Q, the pull opens them by 2·0.0044 Q⁴/p³: some 4e-9. The energy that the line does
+/// wrong there is Q times that, 1e-9 at most.
+inline constexpr double opened_between_strands = 1e-8;
+
 /// Of a line between strands the touches inside may pull, as its pressure changes its sign, with what would open the strands by
 /// no more than they may be nearer elsewhere: a force F lifts both over the span h of its neighbours by Fh³/12B.
 double carried_pull(const chain::Profile& profile, const chain::Strands& strands, int joint);

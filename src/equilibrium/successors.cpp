@@ -212,6 +212,22 @@ std::vector<Successor> after_skeleton(const ContactEvent& event, const Profile& 
   return out;
 }
 
+/// Are the joints about a place where they were, but for what is little next to the distance between them?
+bool alike(const Successor& next, const Strip& strip, double s) {
+  constexpr double about = 0.05, little = 0.1;
+  const auto near = [&](const std::vector<double>& all) {
+    std::vector<double> out;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(out),
+                 [&](double at) { return std::abs(at - s) < about; });
+    return out;
+  };
+  const std::vector<double> before = near(strip.s), after = near(next.s);
+  if (before.size() != after.size()) return false;
+  for (std::size_t k = 1; k + 1 < before.size(); ++k)
+    if (std::abs(after[k] - before[k]) > little * (before[k + 1] - before[k - 1])) return false;
+  return true;
+}
+
 /// Candidates for what follows the event, the other half of a symmetric full chain left as it is.
 std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profile, const Topology& topology,
                                  const std::vector<double>& s) {
@@ -234,8 +250,10 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
       if (const auto opened = line_opens(event.place, topology, strip)) {
         std::vector<Successor> out = {*opened}, parted = strands_part(event.place, strip);
         out.insert(out.end(), parted.begin(), parted.end());
-        if (event.redrawn)  // laid unevenly touches pull, too
-          out.insert(out.begin(), with_touches(skeleton_of(strip).strip.successor(), profile, topology));
+        if (event.redrawn) {  // laid unevenly touches pull, too
+          const Successor anew = with_touches(skeleton_of(strip).strip.successor(), profile, topology);
+          if (!alike(anew, strip, event.s)) out.insert(out.begin(), anew);
+        }
         return out;
       }
       if (strip.on[event.place].strand != 0) return strands_part(event.place, strip);
