@@ -318,7 +318,6 @@ bool Walker::valid_direction(const std::shared_ptr<Problem>& problem, const Vect
           // Negative already before the event, so not the event's doing.
           return !before || before->value >= -1e3 * options_.event_zero;
         });
-    if (getenv("DBG")) for (const auto& event : sample->events) if (!event.passes && event.value < -options_.event_zero) { const EventFunction* before = find(state_.events, event.name); fprintf(stderr, "DBG valid? part %g p %.9f dir %g %s %g before %g\n", part, segment.parameter(*sample), tangent.p, event.name.c_str(), event.value, before ? before->value : NAN); }
     const bool valid = negative <= simultaneous;
     if (valid) return true;
   }

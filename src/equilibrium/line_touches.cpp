@@ -239,8 +239,7 @@ class Layer {
         if (std::pair(other.s[i], other.s[i + 1]) != bounds) continue;
         const bool fresh = strip_.parts[strip_.part_at(0.5 * (bounds.first + bounds.second))].fresh;
         if (fresh && other.s.size() == 2) continue;  // a line that has no length yet
-        const std::array presses{i > 0 && strand_presses(strip_, bounds.first),
-                                 i + 2 < other.s.size() && strand_presses(strip_, bounds.second)};
+        const std::array presses{i > 0, i + 2 < other.s.size()};
         double links = 0.0;
         const std::vector<double> own = laid_out(course_of(other), bounds.first, bounds.second, presses,
                                                  profile_.material.bending_stiffness, finer_, links);

@@ -88,8 +88,7 @@ bool overlaps_between(Entry& at, int link) {
 
 std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, int depth, bool as_long,
                                   double p) {
-#define D(...) if (getenv("DBG")) fprintf(stderr, "DBG open_in_turn " __VA_ARGS__)
-  if (!settle_shape(*entry.problem, entry.x, entry.p, opened)) { D("shape\n"); return std::nullopt; }
+  if (!settle_shape(*entry.problem, entry.x, entry.p, opened)) return std::nullopt;
   // What only redraws a state leaves all else where it is at the same load; at another, gaps that are open already move far.
   Entry here = entry;
   here.p(0) = p;
@@ -102,14 +101,14 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, i
     return in_place ? solve_in_place(*entry.problem, entry.x, entry.p)
                     : solve_at_length(*entry.problem, entry.x, entry.p, opened.front(), length);
   };
-  if (!in_place && !solve()) { D("solve\n"); return std::nullopt; }
+  if (!in_place && !solve()) return std::nullopt;
   // What is admissible is judged on a mesh that is fine enough: events that only a finer one shows would be passed unseen.
   if (const std::optional<Vector> finer = entry.problem->adapt_mesh(entry.x, entry.p)) {
     entry.x = *finer;
-    if (!solve()) { D("solve finer\n"); return std::nullopt; }
+    if (!solve()) return std::nullopt;
   }
   if (as_long && !in_place && !bring_to(entry, opened.front(), p)) return std::nullopt;
-  if (overlaps_between(entry, opened.front())) { D("overlaps\n"); return std::nullopt; }
+  if (overlaps_between(entry, opened.front())) return std::nullopt;
   const chain::Profile shape = entry.problem->profile(entry.x, entry.p);
   const Topology& topology = entry.problem->topology();
   const std::vector<ContactEvent> events = contact_events(shape, topology);
@@ -119,7 +118,6 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, i
   }
   const auto worst = std::min_element(events.begin(), events.end(),
                                       [](const auto& a, const auto& b) { return a.value < b.value; });
-  D("p %.9f link %d length %g worst %s %g\n", entry.p(0), opened.front(), length_of(entry, opened.front()), worst->name().c_str(), worst->value);
   if (depth == 0) return std::nullopt;
   const std::vector<double> s = entry.problem->joint_places(entry.x, entry.p, shape);
   for (const Successor& next : successors(*worst, shape, topology, s)) {

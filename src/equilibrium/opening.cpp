@@ -83,7 +83,6 @@ double longest_part(const chain::Chain& chain, const Vector& x, const contact::L
 continuation::CorrectorReport solve_cut(RodProblem& problem, const Borders& held, Iterate& iterate,
                                         int most) {
   return problem.solve_from_guess(held, iterate, most, [&](const Iterate& at, const Vector& correction) {
-    if (getenv("DBG")) { Eigen::Index w; correction.cwiseAbs().maxCoeff(&w); fprintf(stderr, "DBG   correction %g at %ld of %ld dense %ld geometric %ld part %g p %.9f dp %g\n", correction.lpNorm<Eigen::Infinity>(), (long)w, (long)correction.size(), (long)problem.chain().dense_size(), (long)problem.chain().geometric_size(), longest_part(problem.chain(), at.x, problem.loads(at.p), correction.head(problem.size())), at.p(0), correction(correction.size()-1)); }
     return longest_part(problem.chain(), at.x, problem.loads(at.p), correction.head(problem.size()));
   });
 }
@@ -154,7 +153,6 @@ bool solve_by_turns(RodProblem& problem, Vector& x, Vector& p, const std::functi
     Iterate iterate = iterate_of(problem, x, p, held);
     const continuation::CorrectorReport report = solve_cut(problem, held, iterate, corrections);
     x = iterate.x, p = iterate.p;
-    if (getenv("DBG")) fprintf(stderr, "DBG by_turns %d turn %d converged %d its %d p %.9f %s\n", by_turns, k, report.converged, report.iterations, p(0), report.failure.c_str());
     if (report.converged) return true;
     if (!by_turns || report.iterations < corrections || !settle_shape(problem, x, p, {})) return false;
   }

@@ -256,9 +256,6 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
     }
     const bool shrinks = event.kind == Kind::length && straight_line(*this, event.place) >= 0;
     std::optional<Entry> found = enter(entry, event, next, shrinks, transition.precision);
-    if (getenv("DBG")) {
-      fprintf(stderr, "DBG transition p %.9f %s %g redrawn %d -> joints %zu opened %d entered %d p %.9f\n", p(0), event.name().c_str(), event.value, event.redrawn, next.s.size(), next.opened.empty() ? -1 : next.opened[0], found.has_value(), found ? found->p(0) : NAN);
-    }
     if (!found || (!event.redrawn && found->problem->topology() == topology_))
       continue;  // not where it came from
     if (!tried([&] { return found->problem->settle(found->x, found->p), true; })) continue;
