@@ -193,6 +193,21 @@ std::optional<Successor> line_joins(int joint, const chain::Profile& profile, co
   return std::nullopt;
 }
 
+std::optional<Successor> line_of_three(int joint, const chain::Profile& profile, const Topology& topology,
+                                       Strip strip) {
+  constexpr double near = 0.2;
+  const Strands strands(topology);
+  const int last = static_cast<int>(strip.s.size()) - 1;
+  if (strands.partner(joint) != joint || strands.line_of(joint) >= 0 || joint < 1 || joint >= last ||
+      strands.partner(joint - 1) != joint + 1 ||
+      strip.s[joint + 1] - strip.s[joint - 1] > near * profile.unit_length)
+    return std::nullopt;
+  mark_line(strip, {joint - 1, joint, joint + 1}, {}, true, new_strand(strip));
+  strip.on[joint].part = 0.5;
+  measure_parts(strip);
+  return strip.successor();
+}
+
 bool next_to_line(const ContactEvent& event, const Topology& topology) {
   const Strands strands(topology);
   const Strands::Facing* f = strands.facing(event.place, event.other, event.mirrored);

@@ -264,6 +264,7 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
         std::vector<Successor> out = after_skeleton(event, profile, topology, strip);
         if (const auto joined = line_joins(event.place, profile, topology, strip))
           out.insert(out.begin(), *joined);
+        if (const auto line = line_of_three(event.place, profile, topology, strip)) out.push_back(*line);
         return out;
       }
       return after_curvature(event, strip, profile);
