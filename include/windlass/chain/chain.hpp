@@ -25,8 +25,8 @@ using Eigen::VectorXd;
 struct Link {
   std::unique_ptr<Arc> arc;
   std::string role;   ///< "line", "gap" or "tail"
-  bool weld = false;  ///< of no length: the joints at its ends are one place, with the same unknowns
   int pull = 0;       ///< 0: n unknown; ±1: n is the dead pull of the right end / minus the left one's
+  bool weld = false;  ///< of no length: the joints at its ends are one place, with the same unknowns
 };
 
 /// What lets a rod rest on a cylinder that slips along it (PHYSICS, "Steady sliding"): an unknown in the place of the force
