@@ -79,8 +79,11 @@ std::optional<Least> dip_beside(const Profile& profile, const Piece& piece, cons
 }
 
 /// Beyond its last contact nothing pushes a rod round a cylinder out of the plane of its pull and its tangent: behind a touch of a
-/// plate that tail lies flat in the plate, with neither gap nor curvature there (PHYSICS, "Steady sliding").
-bool lies_flat(const Profile& profile, int link, int obstacle) {
+/// plate that tail lies flat in the plate, with neither gap nor curvature there (PHYSICS, "Steady sliding"). So does all that is
+/// free beside a touch of cylinder and plate at once.
+bool lies_flat(const Profile& profile, const Topology& topology, int link, int obstacle) {
+  for (const int joint : {link, link + 1})
+    if (topology.touches_flat(joint) && topology.seat(joint).flat == obstacle) return true;
   if (profile.pieces[link].stretch != Stretch::tail || !profile.obstacles[0].slips() || obstacle == 0)
     return false;
   return std::any_of(profile.contacts.begin(), profile.contacts.end(), [&](const Contact& c) {
@@ -89,10 +92,10 @@ bool lies_flat(const Profile& profile, int link, int obstacle) {
 }
 
 /// Does a tail beside this touch lie flat in its obstacle?
-bool before_flat_tail(const Profile& profile, const Contact& c) {
+bool before_flat_tail(const Profile& profile, const Topology& topology, const Contact& c) {
   const int count = static_cast<int>(profile.pieces.size());
-  return c.coupling < 0 && ((c.joint > 0 && lies_flat(profile, c.joint - 1, c.obstacle)) ||
-                            (c.joint < count && lies_flat(profile, c.joint, c.obstacle)));
+  return c.coupling < 0 && ((c.joint > 0 && lies_flat(profile, topology, c.joint - 1, c.obstacle)) ||
+                            (c.joint < count && lies_flat(profile, topology, c.joint, c.obstacle)));
 }
 
 /// Least local minimum of the gap to an obstacle inside a free arc. Next to a contact the gap is flat and its samples are
@@ -340,7 +343,7 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
       events.push_back({Kind::buckling, i, piece.buckling.value_or(far), piece.s(0)});
     else
       for (int o = 0; o < profile.obstacles.size(); ++o)
-        if (!lies_flat(profile, i, o)) events.push_back(graze(profile, o, i, at_mid));
+        if (!lies_flat(profile, topology, i, o)) events.push_back(graze(profile, o, i, at_mid));
   }
   const std::vector<chain::Coupling> couplings = topology.couplings();
   for (const Contact& c : profile.contacts) {
@@ -350,7 +353,7 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
     events.back().redrawn = strands.inside_line(c.joint);
     if (c.reaction) events.push_back(reaction_event(profile, c));
     // Of a line between strands g'' = 0.
-    if (c.edge || strands.line_of(c.joint) >= 0 || before_flat_tail(profile, c)) continue;
+    if (c.edge || strands.line_of(c.joint) >= 0 || before_flat_tail(profile, topology, c)) continue;
     const double bend = c.gap_curvature - least_curvature_at(profile, c);
     events.push_back({Kind::curvature, c.joint, about_to_meet(profile, c) ? 1.0 : bend, c.s});
   }

@@ -33,6 +33,7 @@ std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& st
   const double begin = strip.s[i], end = strip.s[i + 1], length = end - begin;
   Strip open = strip;  // the whole line lifts at once
   open.parts[i].kind = Stretch::gap;
+  open.on[i + 1].flat = strip.on[i].flat;  // its edges are touches now, on the plate, too
   if (line.p.maxCoeff() - line.p.minCoeff() < 1e-6) return {open.successor()};
   const double low = event.from, high = event.to, width = high - low;
   const bool at_start = low <= begin, at_end = high >= end;
@@ -166,7 +167,10 @@ std::vector<Successor> after_graze(const ContactEvent& event, Strip strip) {
     strip.on[0] = {event.obstacle};
     return {strip.successor()};
   }
-  strip.cut(i, event.s, {event.obstacle});
+  chain::Seat seat{event.obstacle};
+  for (const int joint : {i, i + 1})  // a rod that lies flat in a plate stays there
+    if (!strip.is_line(joint - 1) && !strip.is_line(joint)) seat.flat = std::max(seat.flat, strip.on[joint].flat);
+  strip.cut(i, event.s, seat);
   return {strip.successor()};
 }
 

@@ -30,7 +30,7 @@ struct Seat {
   int line = 0;
   /// Of a place inside a line contact: the obstacle that stops it there, too (a plate); −1: none.
   int stop = -1;
-  /// The line that begins here lies on this obstacle, a plate, too; −1: on its own alone.
+  /// The line that begins here, or the touch that is here, lies on this obstacle, a plate, too; −1: on its own alone.
   int flat = -1;
   bool middle = false;  ///< of a stop: at s = 0, see contact::spatial::Stopped
   bool operator==(const Seat& other) const = default;
@@ -55,6 +55,11 @@ struct Topology {
   bool lies_flat(int link) const {
     return link >= 0 && link < static_cast<int>(stretches.size()) && stretches[link] == Stretch::line &&
            seat(link).flat >= 0;
+  }
+  /// Does the rod touch its obstacle and a plate at once at this joint, free on both sides?
+  bool touches_flat(int joint) const {
+    return joint > 0 && joint < static_cast<int>(stretches.size()) && seat(joint).flat >= 0 &&
+           stretches[joint - 1] != Stretch::line && stretches[joint] != Stretch::line;
   }
   /// What a contact joint is pushed by: where a line is stopped, what stops it.
   int pushed_by(int joint) const { return seat(joint).stop >= 0 ? seat(joint).stop : seat(joint).obstacle; }
