@@ -154,9 +154,14 @@ std::vector<Successor> after_curvature(const ContactEvent& event, const Strip& s
     out.push_back(closed.successor());
   }
   // The touch flattens to a line, or where a line would pull (under low tension) comes apart into two.
-  for (const Stretch between : {Stretch::line, Stretch::gap})
-    for (const double length : {0.05, 0.02, 0.1})
-      out.push_back(widened(strip, j, between, length * profile.unit_length));
+  const auto widen = [&](std::initializer_list<double> lengths) {
+    for (const Stretch between : {Stretch::line, Stretch::gap})
+      for (const double length : lengths)
+        out.push_back(widened(strip, j, between, length * profile.unit_length));
+  };
+  widen({0.05, 0.02, 0.1});
+  // Where nearly all of the force stays at one end a line grows slowly: a longer one lies far from the event.
+  widen({5e-3, 2e-3});
   return out;
 }
 
