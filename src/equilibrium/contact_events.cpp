@@ -9,6 +9,7 @@
 #include "strand_line_events.hpp"
 #include "windlass/chain/self_distance.hpp"
 #include "windlass/rod/free_flow.hpp"
+#include "windlass/rod/quaternion.hpp"
 
 namespace windlass::equilibrium {
 
@@ -84,8 +85,11 @@ std::optional<Least> dip_beside(const Profile& profile, const Piece& piece, cons
 bool lies_flat(const Profile& profile, const Topology& topology, int link, int obstacle) {
   for (const int joint : {link, link + 1})
     if (topology.touches_flat(joint) && topology.seat(joint).flat == obstacle) return true;
-  if (profile.pieces[link].stretch != Stretch::tail || !profile.obstacles[0].slips() || obstacle == 0)
-    return false;
+  constexpr double twisted = 1e-9;  // of the usual moment √T: a tail that carries torsion is not plane
+  const Piece& tail = profile.pieces[link];
+  if (tail.stretch != Stretch::tail || !profile.obstacles[0].slips() || obstacle == 0) return false;
+  const double twist = tail.m.col(0).dot(rod::directors(tail.q.col(0)).col(2));
+  if (std::abs(twist) > twisted * std::max(1.0, std::sqrt(tail.n.col(0).norm()))) return false;
   return std::any_of(profile.contacts.begin(), profile.contacts.end(), [&](const Contact& c) {
     return c.obstacle == obstacle && (c.joint == link || c.joint == link + 1);
   });
@@ -155,11 +159,12 @@ bool hardly_apart(const Profile& profile, int link) {
 /// no line carries it.
 std::optional<double> beyond_carried(const Profile& profile, int link, bool begins_at_mid) {
   constexpr double shorter = 0.6;
-  int edges = 0, touches = 0;
+  int edges = 0, touches = 0, obstacle = -1;
   double force = 0.0;
   for (const Contact& c : profile.contacts) {
     if (c.joint != link && c.joint != link + 1) continue;
-    if (c.coupling >= 0) return std::nullopt;
+    if (c.coupling >= 0 || (obstacle >= 0 && c.obstacle != obstacle)) return std::nullopt;
+    obstacle = c.obstacle;
     ++(c.edge ? edges : touches);
     if (c.edge) force += c.force;
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -61,8 +62,17 @@ struct Topology {
     return joint > 0 && joint < static_cast<int>(stretches.size()) && seat(joint).flat >= 0 &&
            stretches[joint - 1] != Stretch::line && stretches[joint] != Stretch::line;
   }
-  /// What a contact joint is pushed by: where a line is stopped, what stops it.
-  int pushed_by(int joint) const { return seat(joint).stop >= 0 ? seat(joint).stop : seat(joint).obstacle; }
+  /// Does a line leave a plate at this joint, and go on along its own obstacle?
+  bool lifts_off(int joint) const {
+    return joint > 0 && joint < static_cast<int>(stretches.size()) && stretches[joint - 1] == Stretch::line &&
+           stretches[joint] == Stretch::line && lies_flat(joint - 1) != lies_flat(joint);
+  }
+  /// What a contact joint is pushed by: where a line is stopped, or lifts off, the plate.
+  int pushed_by(int joint) const {
+    if (seat(joint).stop >= 0) return seat(joint).stop;
+    if (lifts_off(joint)) return std::max(seat(joint - 1).flat, seat(joint).flat);
+    return seat(joint).obstacle;
+  }
   std::vector<Coupling> couplings() const;
   /// Does a link begin or end where strands touch?
   bool beside_strand(int link) const { return seat(link).strand != 0 || seat(link + 1).strand != 0; }
