@@ -96,7 +96,8 @@ bool StoppingRule::last(double length, double residual, double state_size, bool 
   // Corrections by an old factorisation shrink by a factor only. What the last one leaves is unseen in the metric, and more in
   // places that the metric gives little weight (a short arc).
   constexpr double unseen = 1e-3;
-  const bool quick = fresh || taken_ == 0 || stagnant || length * contraction(length) <= unseen * tolerance;
+  const double left_unseen = taken_ > 0 && length > 0.0 ? length * contraction(length) : 0.0;
+  const bool quick = fresh || stagnant || left_unseen <= unseen * tolerance;
   settling_ = length <= tolerance && !quick && !done;
   const bool small = (length <= tolerance && quick) || done;
   // Where corrections are this small twice and F no longer falls, what is left of it is the rounding of its large terms

@@ -300,10 +300,13 @@ bool Walker::enter(const Transition& transition, int direction, const std::strin
 bool Walker::valid_direction(const std::shared_ptr<Problem>& problem, const Vector& x, const Vector& p,
                              const Tangent& tangent, const std::string& passed) {
   // Of mirror images that vanish together one is passed now, the others, negative from here on, in the next
-  // steps.
+  // steps. They have the value of the one passed; others are merely small.
+  const EventFunction* now = find(state_.events, passed);
+  const double left = now ? now->value : 0.0;
   const auto simultaneous =
       std::count_if(state_.events.begin(), state_.events.end(), [&](const EventFunction& event) {
-        return event.name != passed && !event.passes && std::abs(event.value) <= 1e4 * options_.event_zero;
+        return event.name != passed && !event.passes &&
+               std::abs(event.value - left) <= 10.0 * options_.event_zero + 0.1 * std::abs(left);
       });
   // A short step may still be within roundoff of the event, a long one beyond the next.
   for (const double part : {0.1, 0.01, 1e-3, 1e-4, 1e-5}) {

@@ -261,6 +261,32 @@ BOOST_AUTO_TEST_CASE(mirror_images_vanish_together) {
   BOOST_TEST(points.back().x.size() == 3);
 }
 
+// A function that is small, and stays so, is no image of the one that vanishes: it excuses no state of the wrong side.
+BOOST_AUTO_TEST_CASE(what_is_merely_small_does_not_vanish_together) {
+  auto free = scalar([](double x, const Vector& p) { return x - p[0]; });
+  free->events_of = [](const Vector& x, const Vector&) {
+    return std::vector<EventFunction>{{"gap", 1.0 - x[0]}, {"weak", 1e-8}};
+  };
+  free->transition_of = [](std::size_t, const Vector& x, const Vector&) {
+    // Held at 1 by a force that pushes only below p = 1: the branch turns back there.
+    auto held = std::make_shared<AlgebraicProblem>(2, [](const Vector& y, const Vector& p) {
+      return vector({y[0] - 1.0, y[1] - (1.0 - p[0])});
+    });
+    held->events_of = [](const Vector& y, const Vector&) {
+      return std::vector<EventFunction>{{"force", y[1]}, {"weak", 1e-8}};
+    };
+    return std::optional(Transition{held, vector({x[0], 0.0}), "free", "held", {}});
+  };
+  Options options;
+  options.lower = 0.0;
+  options.upper = 2.0;
+  Walker walker(free, vector({0.5}), vector({0.5}), options);
+  const auto points = walk(walker);
+  BOOST_REQUIRE_EQUAL(of_type(points, PointType::event).size(), 1u);
+  BOOST_TEST(points.back().p[0] == 0.0);
+  BOOST_TEST(points.back().x.size() == 2);
+}
+
 BOOST_AUTO_TEST_CASE(ping_pong_is_not_endless) {
   // Each problem claims to end where the other begins, on the same side.
   std::shared_ptr<AlgebraicProblem> a, b;

@@ -160,6 +160,24 @@ BOOST_AUTO_TEST_CASE(a_problem_may_bring_its_own_solver) {
   BOOST_TEST(own->solver.solves > 5);
 }
 
+BOOST_AUTO_TEST_CASE(chord_corrections_go_on_below_what_the_metric_shows) {
+  Options options;
+  options.newton_tolerance = 1e-9;
+  StoppingRule rule(options);
+  // By an old factorisation, each a tenth of the one before: the first below the tolerance leaves a tenth of it.
+  BOOST_TEST(!rule.last(1e-8, 1e-9, 1.0, false));
+  BOOST_TEST(!rule.settling());
+  BOOST_TEST(!rule.last(9e-10, 1e-10, 1.0, false));
+  BOOST_TEST(rule.settling());
+  BOOST_TEST(!rule.last(9e-11, 1e-11, 1.0, false));
+  BOOST_TEST(rule.last(9e-12, 1e-12, 1.0, false));
+  BOOST_TEST(!rule.settling());
+  // By the state's own one such correction is the last.
+  StoppingRule fresh(options);
+  BOOST_TEST(!fresh.last(1e-5, 1e-6, 1.0, true));
+  BOOST_TEST(fresh.last(9e-10, 1e-11, 1.0, true));
+}
+
 BOOST_AUTO_TEST_CASE(find_zero_shuts_in) {
   int calls = 0;
   const auto f = [&](double x) -> std::optional<double> {

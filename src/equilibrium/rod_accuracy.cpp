@@ -34,6 +34,10 @@ constexpr double towards = 0.3;
 /// instead.
 constexpr double longest = 3.0, whole = 25.0;
 
+/// One element is enough for so short an arc [unit length], and rounds least: moments follow from differences of frames,
+/// divided by the element's length. Taken away from one that has shrunk to a fifth of it.
+constexpr double short_arc = 0.05, shrunk_to = 0.01;
+
 double growth_over(const chain::Chain::Placed& arc, double bending_stiffness) {
   return arc.length * std::sqrt(arc.n.norm() / bending_stiffness);
 }
@@ -50,6 +54,14 @@ bool outgrown(const chain::Chain& chain, const std::vector<chain::ArcMesh>& mesh
       if (size > 1.2 * longest && size < whole) return true;
     }
   }
+  return false;
+}
+
+/// Has an arc become too short for the elements it was given?
+bool shrunk(const chain::Chain& chain, const Vector& x, const Loads& at, double unit_length) {
+  for (int i = 0; i < chain.link_count(); ++i)
+    if (chain.link(i).arc->elements() > 1 && chain.place(x, at, i).length < shrunk_to * unit_length)
+      return true;
   return false;
 }
 
@@ -121,7 +133,9 @@ std::vector<chain::ArcMesh> RodProblem::new_meshes(const Vector& x, const Loads&
     if (weights[i].empty()) continue;
     double sum = 0.0;
     for (double w : weights[i]) sum += w;
-    const int count = std::clamp(static_cast<int>(std::ceil(goal * sum / total)), 2, 400);
+    const double length = chain_->place(x, at, static_cast<int>(i)).length / rod_.unit_length;
+    const int count =
+        std::clamp(static_cast<int>(std::ceil(goal * sum / total)), length < short_arc ? 1 : 2, 400);
     const std::vector<double>& old = meshes_[i].nodes;
     std::vector<double> mesh{0.0};
     std::size_t e = 0;
@@ -268,7 +282,8 @@ std::optional<Vector> RodProblem::remeshed_where_needed(const Vector& x, const V
   const Loads at = loads(p);
   const double noise = at.compliance == 0.0 ? rounding : stretched_rounding(at, target(*chain_, x, at));
   const bool coarsen = too_large < superfluous && last_error_ > 1.5 * noise;
-  if (too_large <= 1.0 && outgrown(*chain_, meshes_, x, loads(p), rod_.bending_stiffness))
+  if (too_large <= 1.0 && (outgrown(*chain_, meshes_, x, at, rod_.bending_stiffness) ||
+                           shrunk(*chain_, x, at, rod_.unit_length)))
     return moved_to(new_meshes(x, loads(p), 1.0), x, p, true);
   if (too_large <= 1.0 && !coarsen) return std::nullopt;
   const double order = order_of(meshes_);

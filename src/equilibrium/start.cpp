@@ -55,7 +55,7 @@ std::optional<Started> on_chain(const std::optional<Started>& found, bool half) 
 
 /// A coil whose rod keeps off itself: the flat one thickened; one of several turns under high tension, where each would go through
 /// a change of contact, thickened at a tension at which its turns lie apart and still press on each other, then tightened or
-/// loosened; or where neither leads there, relaxed as a discrete rod.
+/// loosened.
 std::optional<Started> thick_coil(const scene::Scene& scene, bool half, const std::vector<std::string>& keys,
                                   std::string& failure) {
   constexpr double loose_tension = 1.5, high = 2.0, turns_side_by_side = 3.0 * M_PI;
@@ -72,6 +72,12 @@ std::optional<Started> thick_coil(const scene::Scene& scene, bool half, const st
   loose.load.tension = loose_tension;
   if (const auto from = thickened(loose, true, {"load.tension"}))
     if (const auto there = reach(*from, scene, scene.load.tension, half, keys, failure)) return there;
+  return std::nullopt;
+}
+
+/// A thick coil relaxed as a discrete rod, where no other way leads there.
+std::optional<Started> relaxed_coil(const scene::Scene& scene, bool half,
+                                    const std::vector<std::string>& keys, std::string& failure) {
   if (!scene.free_of_torsion()) return std::nullopt;
   std::string not_relaxed;
   const std::optional<Started> relaxed = relaxed_start(scene, {}, keys, not_relaxed);
@@ -157,6 +163,8 @@ Started cold_start(const scene::Scene& asked, bool spatial, bool half, const std
   if (!scene.has_cylinder)
     return scene.ends.shortening ? buckled_strut(scene, half, keys) : straight_strut(scene, half, keys);
   if (auto followed = followed_coil(scene, spatial, half, keys, failure)) return *followed;
+  if (spatial && scene.strand_radius() > 0.0)
+    if (auto relaxed = relaxed_coil(scene, half, keys, failure)) return *relaxed;
   if (auto discovered = discovered_start(scene, spatial, half, keys)) return *discovered;
   throw NoEquilibrium("no equilibrium in contact was found at T = " + std::to_string(asked.load.tension) +
                       ", phi = " + std::to_string(scene.load.angle) + ": " + failure);

@@ -122,6 +122,16 @@ BOOST_AUTO_TEST_CASE(turns_come_to_lie_side_by_side) {
       BOOST_TEST(std::stod(row.at("self_distance")) == 2.0 * radius, boost::test_tools::tolerance(2e-9));
 }
 
+// At other radii they touch at a point for a while, in 1e-4 of the tension; beside forces of 1e-8 in their lines.
+BOOST_AUTO_TEST_CASE(turns_that_touch_at_a_point_first) {
+  const double radius = 0.2;
+  const TemporaryFolder up, down;
+  const std::vector<double> rising = events(follow(up, two_turns, radius, 9.0, 10.0)),
+                            falling = events(follow(down, two_turns, radius, 10.0, 9.0));
+  BOOST_TEST(rising.size() == 3u);
+  BOOST_TEST(rising == falling, boost::test_tools::tolerance(1e-8) << boost::test_tools::per_element());
+}
+
 // Where an arc beside a touch vanishes the event's own state has an arc without length, and the branch goes on a little
 // beyond: a run from there, and targets in between.
 BOOST_AUTO_TEST_CASE(a_run_begins_at_an_event_and_ends_beside_it) {
