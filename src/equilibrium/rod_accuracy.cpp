@@ -282,8 +282,8 @@ std::optional<Vector> RodProblem::remeshed_where_needed(const Vector& x, const V
   const Loads at = loads(p);
   const double noise = at.compliance == 0.0 ? rounding : stretched_rounding(at, target(*chain_, x, at));
   const bool coarsen = too_large < superfluous && last_error_ > 1.5 * noise;
-  if (too_large <= 1.0 && (outgrown(*chain_, meshes_, x, at, rod_.bending_stiffness) ||
-                           shrunk(*chain_, x, at, rod_.unit_length)))
+  if (too_large <= 1.0 &&
+      (outgrown(*chain_, meshes_, x, at, rod_.bending_stiffness) || shrunk(*chain_, x, at, rod_.unit_length)))
     return moved_to(new_meshes(x, loads(p), 1.0), x, p, true);
   if (too_large <= 1.0 && !coarsen) return std::nullopt;
   const double order = order_of(meshes_);
