@@ -52,8 +52,8 @@ Chain::Chain(std::vector<std::unique_ptr<Joint>> joints, std::vector<double> fix
   keep_coordinates();
   numbering_ = number(Purpose::equilibrium);
   for (int j = 0; j < joint_count(); ++j) {
-    joint_at_.push_back(ambient_size_);
-    ambient_size_ += joints_[j]->ambient() + (numbering_.location[j] >= 0);
+    joint_at_.push_back(shares_place(j) ? joint_at_.back() : ambient_size_);
+    if (!shares_place(j)) ambient_size_ += joints_[j]->ambient() + (numbering_.location[j] >= 0);
   }
   if (numbering_.slide >= 0) {
     slide_at_ = ambient_size_;
@@ -61,8 +61,8 @@ Chain::Chain(std::vector<std::unique_ptr<Joint>> joints, std::vector<double> fix
   }
   for (std::size_t k = 0; k < couplings_.size(); ++k) strand_at_.push_back(ambient_size_++);
   for (int j = 0; j < joint_count(); ++j) {
-    rest_at_.push_back(is_contact(j) ? ambient_size_ : -1);
-    if (is_contact(j)) ambient_size_ += rest_of_place + std::max(2, joints_[j]->places());
+    rest_at_.push_back(shares_place(j) ? rest_at_.back() : is_contact(j) ? ambient_size_ : -1);
+    if (is_contact(j) && !shares_place(j)) ambient_size_ += rest_of_place + std::max(2, joints_[j]->places());
   }
   for (const Link& link : links_) {
     force_at_.push_back(ambient_size_);
@@ -105,8 +105,8 @@ void Chain::keep_coordinates() {
                                              (gauges_.spin && k == joints_[j]->spin_coordinate()) || along);
       if (!held) all.push_back(k);
     }
-    kept_.push_back(all);
-    varied_.push_back(varied);
+    kept_.push_back(shares_place(j) ? kept_.back() : all);
+    varied_.push_back(shares_place(j) ? varied_.back() : varied);
   }
   if (!half()) return;
   const std::vector<int> even = joints_[0]->even();
@@ -124,14 +124,26 @@ double Chain::slide_share(int joint) const {
 Chain::Numbering Chain::number(Purpose purpose) const {
   const bool equilibrium = purpose == Purpose::equilibrium, asymmetric = !half() || purpose == Purpose::odd;
   Numbering n;
+  // Does a joint's place vary, in a variation? Along a line strands touch at every place of the first, each where the second is
+  // nearest: that one's moves.
+  const auto varies = [&](int j) {
+    const int k = coupling_of_[j];
+    const bool fixed =
+        k >= 0 && couplings_[k].along && (couplings_[k].first == j || couplings_[k].with_itself());
+    return joints_[j]->kind() == JointKind::touch && (locates(j) || purpose == Purpose::odd) && !fixed;
+  };
   for (int j = 0; j < joint_count(); ++j) {
+    if (shares_place(j)) {
+      n.coordinate.push_back(n.coordinate.back());
+      n.location.push_back(n.location.back());
+      continue;
+    }
     n.coordinate.push_back(n.size);
     n.size += static_cast<Eigen::Index>(kept(purpose, j).size());
     // In a variation a touch keeps its location as a direction of maximum; the edge of a line stays where it is, because
     // moving it costs nothing to second order, as do touches of a line between strands. The half-turn keeps a touch at s = 0, but in odd variations.
-    const bool located = equilibrium ? locates(j)
-                                     : joints_[j]->kind() == JointKind::touch &&
-                                           (locates(j) || purpose == Purpose::odd) && !along_strand(j);
+    bool located = equilibrium ? locates(j) : varies(j);
+    for (int k = j + 1; !located && k < joint_count() && shares_place(k); ++k) located = varies(k);
     n.location.push_back(located ? n.size++ : -1);
     n.constraints += located;
   }

@@ -39,6 +39,21 @@ Chain::Crossing Chain::crossing(const VectorXd& x, int coupling) const {
   return out;
 }
 
+namespace {
+
+/// |D| − 2r. Of touches h apart the forces answer to it by 192 B/h³: to more digits than those of a double, from places that have
+/// them. @param rest  of D, beside its double
+double overlap(const Vector3d& first, const Vector3d& second, const Vector3d& rest, double radius) {
+  long double square = 0.0L;
+  for (int k = 0; k < 3; ++k) {
+    const long double d = static_cast<long double>(first(k)) - second(k) + rest(k);
+    square += d * d;
+  }
+  return static_cast<double>(std::sqrt(square) - 2.0L * radius);
+}
+
+}  // namespace
+
 void Chain::add_strand_forces(const VectorXd& x, const Loads& loads, VectorXd& f) const {
   for (std::size_t k = 0; k < couplings_.size(); ++k) {
     const Coupling& c = couplings_[k];
@@ -49,8 +64,13 @@ void Chain::add_strand_forces(const VectorXd& x, const Loads& loads, VectorXd& f
     };
     pull_on(c.first, at.first, -1.0);
     pull_on(c.second, at.second, 1.0);
-    f(numbering_.strand[k]) = -c.weight() * (at.distance - 2.0 * loads.radius);
+    const auto rest = [&](int joint) -> Vector3d {
+      return joints_[joint]->surface() ? Vector3d::Zero() : Vector3d(x.segment<3>(rest_at_[joint] + 1));
+    };
+    const Vector3d between = rest(c.first) - c.image().cwiseProduct(rest(c.second));
+    f(numbering_.strand[k]) = -c.weight() * overlap(at.first.r, at.second.r, between, loads.radius);
     f(numbering_.location[c.second]) = at.direction.dot(at.second.t);
+    if (c.placed) continue;
     f(numbering_.location[c.first]) = at.direction.dot(at.first.t);
     if (c.begin < 0) continue;
     const double begin = arclength(x, loads, c.begin), whole = arclength(x, loads, c.end) - begin;
@@ -106,6 +126,7 @@ void Chain::add_couplings(Purpose purpose, const Numbering& numbering, const Vec
     const int conditions = c.with_itself() ? 1 : 2;
     for (int i = 0; i < conditions; ++i) {
       const Eigen::Index row = numbering.location[ends[i].joint];
+      if (i == 0 && c.placed) continue;
       if (i == 0 && c.begin >= 0) {
         dense(row, row) += 1.0;
         dense(row, numbering.location[c.begin]) -= 1.0 - c.part;

@@ -74,10 +74,12 @@ MatrixXd Chain::variation_matrix(Purpose purpose, const Numbering& numbering, co
   add_couplings(purpose, numbering, x, dense);
   // A touch costs −½ F g'' δs² as it shifts: it is where the gap is least. One that carries nothing, as where it opens, costs
   // nothing, and its sign would be rounding's.
-  constexpr double nothing = 1e-7;  // [EI/ρ²], [EI/ρ³]
+  constexpr double nothing = 1e-7, stiff = 1e3;  // [EI/ρ²], [EI/ρ³]
   for (int j = 0; j < joint_count(); ++j) {
     const Eigen::Index row = numbering.location[j];
-    if (row >= 0 && touch_force(x, loads, j) < nothing) dense(row, row) -= nothing;
+    if (row < 0 || shares_place(j) || !(touch_force(x, loads, j) < nothing)) continue;
+    // One of a line may pull with what opens the strands by no height: it stays where it is.
+    dense(row, row) -= along_strand(j) ? stiff : nothing;
   }
   return dense;
 }

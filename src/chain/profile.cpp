@@ -169,6 +169,7 @@ std::optional<double> buckling(const Piece& line, const bvp::ArcSamples& samples
   constexpr double rounding = 1e-9;
   const double force = std::max(1.0, line.n.col(0).norm());
   const double bend = samples.momentum.row(0).cwiseAbs().maxCoeff();
+  if (line.weld) return std::nullopt;
   if (line.p.cwiseAbs().maxCoeff() > rounding * force / unit || bend > rounding * force * unit)
     return std::nullopt;
   const double tension = line.n.col(0).dot(rod::directors(line.q.col(0)).col(2));
@@ -197,6 +198,7 @@ Piece sample_link(const Chain& chain, const RodKind& rod, const VectorXd& x, con
   Piece piece;
   piece.stretch = stretch;
   if (stretch == Stretch::line) piece.obstacle = topology.obstacle(link);
+  piece.weld = chain.link(link).weld;
   piece.stride = arc.elements() > 0 ? arc.stages() : 1;
   resize(piece, samples.sigma.size());
   place_samples(chain, x, loads, link, placed, samples, piece);
@@ -210,8 +212,9 @@ Piece sample_link(const Chain& chain, const RodKind& rod, const VectorXd& x, con
       const double whole = topology.half && link == 0 ? 2.0 * placed.length : placed.length;
       const rod::Material material = rod.material(loads);
       sample_surface(samples, material, surface, start, along, piece);
-      piece.force = flat ? simpson(piece.p, placed.length)
-                         : surface_force(piece, samples, material, surface, start, along, placed.length);
+      if (!piece.weld)
+        piece.force = flat ? simpson(piece.p, placed.length)
+                           : surface_force(piece, samples, material, surface, start, along, placed.length);
       piece.buckling = buckling(piece, samples, material, surface, whole, rod.unit_length);
     } else {
       sample_planar_line(samples, rod, placed.left.x(0), placed.n(0), loads.compliance, piece);
@@ -252,6 +255,27 @@ namespace {
   return bend / material.stretch(piece.n.col(sample).dot(rod::directors(piece.q.col(sample)).col(2)));
 }
 
+/// Arcs of no length between touches at one place: moment and pressure are those beside, the force falls by what each touch pushes
+/// with, and what the obstacle takes is shared by them.
+void fill_welds(const Chain& chain, const VectorXd& x, std::vector<Piece>& pieces) {
+  const int count = static_cast<int>(pieces.size());
+  for (int first = 1; first < count; ++first) {
+    if (!pieces[first].weld) continue;
+    int last = first;
+    while (last + 1 < count && pieces[last + 1].weld) ++last;
+    const Piece& before = pieces[first - 1];
+    Vector3d n = before.n.rightCols<1>(), rest = n - pieces[last + 1].n.col(0);
+    for (int j = first; j <= last + 1; ++j) rest -= strand_push(chain, x, j);
+    for (int i = first; i <= last; ++i) {
+      n -= strand_push(chain, x, i) + rest / (last - first + 2);
+      pieces[i].n.colwise() = n;
+      pieces[i].m.colwise() = Vector3d(before.m.rightCols<1>());
+      pieces[i].p.setConstant(before.p(before.p.size() - 1));
+    }
+    first = last;
+  }
+}
+
 }  // namespace
 
 Vector3d curvature(const rod::Material& material, const Piece& piece, Eigen::Index sample) {
@@ -272,6 +296,7 @@ Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod
   out.travelled = chain.travelled(x);
   for (int i = 0; i < chain.link_count(); ++i)
     out.pieces.push_back(sample_link(chain, rod, x, loads, i, topology));
+  fill_welds(chain, x, out.pieces);
   unroll(out.pieces);
   add_contacts(chain, topology, x, loads, out);
   return out;
@@ -284,6 +309,10 @@ double total_contact_force(const Chain& chain, const Topology& topology, const R
   Vector3d n_before = Vector3d::Zero();
   for (int i = 0; i < chain.link_count(); ++i) {
     Vector3d n_first = Vector3d::Zero(), n_last;
+    if (chain.link(i).weld) {  // what the obstacle takes is counted behind it
+      n_before -= strand_push(chain, x, i);
+      continue;
+    }
     if (kinds[i] == Stretch::line) {
       const Piece piece = sample_link(chain, rod, x, loads, i, topology);
       sum += piece.force * (topology.half ? 2.0 : 1.0);

@@ -33,7 +33,7 @@ class Curve {
       const Piece& piece = whole.pieces[i];
       begins.push_back(static_cast<int>(s.size()));
       const int last = static_cast<int>(piece.s.size()) - 1;
-      for (int first = 0; first + piece.stride <= last; first += piece.stride)
+      for (int first = 0; first + piece.stride <= last && !piece.weld; first += piece.stride)
         add_element(piece, static_cast<int>(i), first);
     }
     begins.push_back(static_cast<int>(s.size()));
@@ -325,7 +325,10 @@ std::vector<Approach> approaches(const Profile& profile, const Topology& topolog
   const int links = static_cast<int>(profile.pieces.size()), first = topology.half ? links : 0;
   // Touches of a line are where they are laid, not where strands are nearest: right beside they may be nearer.
   const std::vector<Touch> none;
-  const auto least = [&](int i, int j, bool line) {  // of two pieces of the whole rod, i <= j
+  const auto least =
+      [&](int i, int j, bool line) -> std::optional<SelfDistance> {  // of two pieces of the whole rod, i <= j
+    for (const int piece : {i, j})
+      if (curve.begins[piece] == curve.begins[piece + 1]) return std::nullopt;  // of no length
     Search search(curve, separation, cutoff, line ? none : known);
     if (i == j)
       search.within(curve.begins[i], curve.begins[i + 1]);

@@ -14,6 +14,7 @@ Strands::Strands(const Topology& topology) {
   line_of_.assign(joints, -1);
   mirrored_.assign(joints, false);
   facing_.resize(joints - 1);
+  for (int j = 0; j < joints; ++j) shares_.push_back(topology.seat(j).shares);
   std::map<int, int> by_strand;
   std::vector<int> touches;
   for (int j = 0; j < joints; ++j) {
@@ -33,20 +34,44 @@ Strands::Strands(const Topology& topology) {
   face(touches);
 }
 
+bool Strands::pressed(int joint) const {
+  if (joint < 0 || shares_[joint] == 0) return false;
+  int at = joint;
+  while (shares_[at] != 0) at += shares_[at];
+  return !inside_line(at);
+}
+
+int Strands::others(int begin, int end) const {
+  int count = 0;
+  for (int j = std::min(begin, end) + 1; j < std::max(begin, end); ++j) count += !inside_line(j);
+  return count;
+}
+
+bool Strands::divides_first(const StrandLine& line) const {
+  const auto count = [&](const std::vector<int>& strand) {
+    const auto [low, high] = std::minmax(strand.front(), strand.back());
+    int sum = others(low, high);
+    for (const StrandLine& other : lines_) {  // those that run along it
+      if (&other == &line || other.own_image() || other.on_obstacles) continue;
+      for (const std::vector<int>* side : {&other.first, &other.second}) {
+        const auto [begin, end] = std::minmax(side->front(), side->back());
+        sum += begin < high && end > low;
+      }
+    }
+    return sum;
+  };
+  const int of_first = count(line.first), of_second = count(line.second);
+  return of_first > of_second || (of_first == of_second && line.first.front() < line.second.front());
+}
+
 void Strands::find_laid() {
   laid_.assign(partner_.size(), false);
-  const auto others = [&](int begin, int end) {  // joints between two, but for those inside lines
-    int count = 0;
-    for (int j = std::min(begin, end) + 1; j < std::max(begin, end); ++j) count += !inside_line(j);
-    return count;
-  };
   for (const StrandLine& line : lines_) {
     const int links = line.links(), low = links / 2, high = links - low;
     const std::vector<int>&first = line.first, &second = line.second;
-    const int of_first = others(first.front(), line.own_image() ? first[low] : first.back()),
-              of_second = line.own_image() ? others(first[high], first.back())
-                                           : others(second.front(), second.back());
-    const bool by_first = of_first > of_second || (of_first == of_second && first.front() < second.front());
+    const bool by_first = line.own_image()
+                              ? others(first.front(), first[low]) >= others(first[high], first.back())
+                              : divides_first(line);
     for (int i = 1; i < links; ++i) {
       if (line.own_image() && 2 * i >= links) break;
       laid_[by_first ? first[i] : second[i]] = true;
@@ -55,8 +80,12 @@ void Strands::find_laid() {
 }
 
 std::array<int, 2> Strands::located_about(int before, int after) const {
-  while (inside_line(before)) --before;
-  while (inside_line(after)) ++after;
+  // In the middle of a line between a strand and its own image tangency does it.
+  const auto located = [&](int j) {
+    return !inside_line(j) || (partner_[j] == j && !lines_[line_of_[j]].on_obstacles);
+  };
+  while (!located(before)) --before;
+  while (!located(after)) ++after;
   return {before, after};
 }
 

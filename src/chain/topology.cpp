@@ -15,6 +15,7 @@
 #include "windlass/rod/kirchhoff_density.hpp"
 #include "windlass/rod/planar_density.hpp"
 #include "windlass/rod/plate_line_arc.hpp"
+#include "windlass/rod/weld_arc.hpp"
 
 namespace windlass::chain {
 
@@ -222,6 +223,7 @@ Topology unfolded(const Topology& t) {
   for (int j = 0; j < static_cast<int>(whole.on.size()); ++j) {
     Seat& seat = whole.on[j];
     if (seat.part > 0.0) seat.part = 1.0 - seat.part;
+    seat.shares = -seat.shares;
     // A line with the own image is one of two strands now; another has an image of its own.
     const int line = strands.line_of(static_cast<int>(t.on.size()) - 1 - j);
     if (seat.line != 0 && line >= 0)
@@ -258,6 +260,7 @@ std::vector<Coupling> Topology::couplings() const {
     if (strands.laid(c.first)) {
       const auto [begin, end] = strands.between(c.first);
       c.begin = begin, c.end = end, c.part = on[c.first].part;
+      c.placed = on[c.first].shares != 0;
     }
     out.push_back(c);
   }
@@ -307,6 +310,7 @@ std::unique_ptr<Chain> build_chain(const RodKind& rod, const Topology& t,
   std::vector<std::unique_ptr<Joint>> joints;
   std::vector<double> fixed(count + 1, 0.0);
   std::vector<Link> links;
+  const Strands strands(t);
   if (!t.half) fixed.front() = -end;
   fixed.back() = end;
   for (int i = 0; i <= count; ++i) {
@@ -321,6 +325,7 @@ std::unique_ptr<Chain> build_chain(const RodKind& rod, const Topology& t,
     link.arc = t.lies_flat(i) ? std::make_unique<rod::PlateLineArc>(rod.bending_stiffness, rod.stiffness(2))
                               : make_arc(rod, all[i], t.obstacle(i), mesh_of(i), !leftward);
     link.role = word(all[i]);
+    if (strands.welded(i)) link.weld = true, link.arc = std::make_unique<rod::WeldArc>(*link.arc);
     if (all[i] == Stretch::tail && !rod.strut) link.pull = leftward ? -1 : 1;
     links.push_back(std::move(link));
   }

@@ -188,14 +188,15 @@ bool beside_unpressed(const Profile& profile, int link) {
 
 /// Two touches with a short gap between them that have come from one: they meet where its length says so, before their
 /// curvature, which falls with the square of it, can.
-bool about_to_meet(const Profile& profile, const Contact& touch) {
+bool about_to_meet(const Profile& profile, const chain::Strands& strands, const Contact& touch) {
   constexpr double short_gap = 0.02;
   const auto shorter = [&](int link) {
-    return link >= 0 && link < static_cast<int>(profile.pieces.size()) &&
+    return link >= 0 && link < static_cast<int>(profile.pieces.size()) && !strands.welded(link) &&
            length_of(profile.pieces[link]) < short_gap * profile.unit_length;
   };
   return std::any_of(profile.contacts.begin(), profile.contacts.end(), [&](const Contact& c) {
     return c.coupling >= 0 && touch.coupling >= 0 &&
+           std::abs(strands.partner(c.joint) - strands.partner(touch.joint)) <= 1 &&
            ((c.joint == touch.joint + 1 && shorter(touch.joint)) ||
             (c.joint == touch.joint - 1 && shorter(c.joint)));
   });
@@ -339,6 +340,10 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
   for (int i = 0; i < count; ++i) {
     const Piece& piece = profile.pieces[i];
     const bool at_mid = topology.half && i == 0 && !topology.mid_touch;
+    if (piece.weld) {
+      events.push_back(length_event(profile, topology, strands, i));
+      continue;
+    }
     if (piece.stretch == Stretch::line) {
       const auto found = pressure_and_suction(piece, i, at_mid);
       events.insert(events.end(), found.begin(), found.end());
@@ -360,7 +365,7 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
     // Of a line between strands g'' = 0.
     if (c.edge || strands.line_of(c.joint) >= 0 || before_flat_tail(profile, topology, c)) continue;
     const double bend = c.gap_curvature - least_curvature_at(profile, c);
-    events.push_back({Kind::curvature, c.joint, about_to_meet(profile, c) ? 1.0 : bend, c.s});
+    events.push_back({Kind::curvature, c.joint, about_to_meet(profile, strands, c) ? 1.0 : bend, c.s});
   }
   const std::vector<ContactEvent> near = approach_events(profile, topology, strands);
   events.insert(events.end(), near.begin(), near.end());

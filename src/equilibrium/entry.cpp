@@ -16,6 +16,7 @@ constexpr int elements = 4;  // of an arc, at least
 std::vector<double> inherited(const chain::Profile& shape, double begin, double end) {
   constexpr double apart = 0.1;  // of the element before, and of the unit
   std::vector<double> nodes{0.0};
+  if (end == begin) return {0.0, 1.0};
   const double least = apart * shape.unit_length / (end - begin);
   for (const chain::Piece& piece : shape.pieces) {
     if (piece.stride == 1) continue;  // a formula

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 
+#include "strand_line_events.hpp"
 #include "strand_successors.hpp"
 
 namespace windlass::equilibrium {
@@ -27,7 +30,7 @@ std::vector<Touched> touched_by(const chain::Profile& profile, const chain::Topo
     const int joint = c.joint;
     if (c.coupling < 0 || strands.line_of(joint) < 0) continue;
     double pressure = NAN;
-    if (strands.inside_line(joint)) {
+    if (strands.inside_line(joint) && !strands.pressed(joint) && !strands.pressed(strands.partner(joint))) {
       const auto [before, after] = strands.neighbours(joint);
       pressure = std::max(c.force, 0.0) / (0.5 * (place(after) - place(before)));
     }
@@ -125,7 +128,8 @@ struct Divided {
   int mark;
 };
 
-Divided divided(const Strip& strip, const StrandLine& line, const std::vector<Touched>& known) {
+Divided divided(const Strip& strip, const Strands& strands, const StrandLine& line,
+                const std::vector<Touched>& known) {
   Divided out;
   out.image = line.image, out.own_image = line.own_image();
   out.mark = strip.on[line.first.front()].line;
@@ -157,7 +161,7 @@ Divided divided(const Strip& strip, const StrandLine& line, const std::vector<To
     return out;
   }
   const std::vector<double> first = of(begin, end), second = of(other_begin, other_end);
-  out.by_first = first.size() > second.size() || (first.size() == second.size() && begin < other_begin);
+  out.by_first = strands.divides_first(line);
   if (!out.by_first) std::swap(begin, other_begin), std::swap(end, other_end);
   if (begin > end) std::swap(begin, end), std::swap(other_begin, other_end);
   out.s = out.by_first ? first : second;
@@ -173,6 +177,101 @@ double clear_of(const Strip& strip, double s) {
     if (std::abs(s - at) < clear) return s < at ? at - clear : at + clear;
   return s;
 }
+
+/// Does another strand press where a joint of a strip is?
+bool strand_presses(const Strip& strip, double s) {
+  const auto at = std::find(strip.s.begin(), strip.s.end(), s);
+  return at != strip.s.end() && strip.on[static_cast<std::size_t>(at - strip.s.begin())].strand != 0;
+}
+
+/// Lays the touches of lines on a strip. Between the same two joints of a strand all lines have theirs at the same places; where
+/// another strand presses each has one, too.
+class Layer {
+ public:
+  Layer(Strip& strip, const std::vector<Divided>& lines, const chain::Profile& profile,
+        const std::vector<Touched>& known, double finer)
+      : strip_(strip),
+        lines_(lines),
+        profile_(profile),
+        known_(known),
+        finer_(finer),
+        strand_(new_strand(strip)) {}
+
+  void lay() {
+    for (const Divided& line : lines_) {
+      const Course course = course_of(line);
+      double needed = 0.0;
+      for (std::size_t k = 0; k + 1 < line.s.size(); ++k) {
+        if (k > 0 && strand_presses(strip_, line.s[k]) && apart_from_ends(line, line.s[k]))
+          add(line, course, line.s[k], true);
+        const bool shared = between_.contains({line.s[k], line.s[k + 1]});
+        for (const double s : places(line, k, needed)) add(line, course, s, shared);
+      }
+      constexpr double half = 0.5;  // of what is between two touches
+      const std::size_t last = line.s.size() - 1;
+      const double beside = line.by_first ? line.s[last] - line.s[last - 1] : line.s[1] - line.s[0];
+      if (line.own_image && needed > half && beside > apart_from_middle * profile_.unit_length &&
+          (course.pressed() || finer_ > 1.0)) {
+        const double middle = clear_of(strip_, line.by_first ? line.s.back() : line.s.front());
+        add_pair(strip_, middle, middle, line.image, true, {0, strand_++, 0.5, line.mark});
+      }
+    }
+  }
+
+ private:
+  bool apart_from_ends(const Divided& line, double s) const {
+    const double least = press_apart * profile_.unit_length;
+    const bool before = line.own_image && !line.by_first,
+               behind = line.own_image && line.by_first;  // its middle is no end
+    return (before || s - line.s.front() > least) && (behind || line.s.back() - s > least);
+  }
+
+  Course course_of(const Divided& line) const {
+    return {known_, line.s.front(), line.other_begin, line.s.back(), line.other_end, line.image};
+  }
+
+  /// Of all lines that are divided between these two joints as many places as that one asks for which asks for most.
+  const std::vector<double>& places(const Divided& line, std::size_t k, double& needed) {
+    const std::pair bounds(line.s[k], line.s[k + 1]);
+    std::vector<double> most;
+    for (const Divided& other : lines_)
+      for (std::size_t i = 0; i + 1 < other.s.size(); ++i) {
+        if (std::pair(other.s[i], other.s[i + 1]) != bounds) continue;
+        const bool fresh = strip_.parts[strip_.part_at(0.5 * (bounds.first + bounds.second))].fresh;
+        if (fresh && other.s.size() == 2) continue;  // a line that has no length yet
+        const std::array presses{i > 0, i + 2 < other.s.size()};
+        double links = 0.0;
+        const std::vector<double> own = laid_out(course_of(other), bounds.first, bounds.second, presses,
+                                                 profile_.material.bending_stiffness, finer_, links);
+        if (&other == &line) needed += links;
+        if (own.size() > most.size()) most = own;
+      }
+    const auto [found, first] = between_.try_emplace(bounds, std::vector<double>());
+    if (first)
+      for (const double s : most) found->second.push_back(clear_of(strip_, s));
+    return found->second;
+  }
+
+  /// @param shared  there is a touch at that place already
+  void add(const Divided& line, const Course& course, double s, bool shared) {
+    double other = clear_of(strip_, course.other(s));
+    const int strand = strand_++;
+    const bool swapped = !line.by_first && !line.own_image;
+    add_pair(strip_, swapped ? other : s, swapped ? s : other, line.image, line.own_image,
+             {0, strand, 0.5, line.mark});
+    if (!shared) return;
+    for (std::size_t j = 0; j < strip_.s.size(); ++j)
+      if (std::abs(strip_.on[j].strand) == strand && strip_.s[j] == s) strip_.on[j].shares = 1;
+  }
+
+  Strip& strip_;
+  const std::vector<Divided>& lines_;
+  const chain::Profile& profile_;
+  const std::vector<Touched>& known_;
+  double finer_;
+  int strand_;
+  std::map<std::pair<double, double>, std::vector<double>> between_;  ///< places between two joints
+};
 
 }  // namespace
 
@@ -199,30 +298,8 @@ Successor with_touches(const Successor& skeleton, const chain::Profile& profile,
   std::vector<Divided> lines;
   for (const StrandLine& line : strands.lines())
     if (!line.on_obstacles || strip.on[line.first.front()].line != 0)
-      lines.push_back(divided(strip, line, known));
-  int strand = new_strand(strip);
-  for (const Divided& line : lines) {
-    const Course course(known, line.s.front(), line.other_begin, line.s.back(), line.other_end, line.image);
-    const auto add = [&](double s, double other) {
-      s = clear_of(strip, s);
-      if (other != s) other = clear_of(strip, other);
-      if (!line.by_first && !line.own_image) std::swap(s, other);
-      add_pair(strip, s, other, line.image, line.own_image, {0, strand++, 0.5, line.mark});
-    };
-    double needed = 0.0;
-    for (std::size_t k = 0; k + 1 < line.s.size(); ++k) {
-      const bool fresh = strip.parts[strip.part_at(0.5 * (line.s[k] + line.s[k + 1]))].fresh;
-      if (fresh && line.s.size() == 2) continue;  // a line that has no length yet
-      for (const double s : laid_out(course, line.s[k], line.s[k + 1], {k > 0, k + 2 < line.s.size()},
-                                     profile.material.bending_stiffness, finer, needed))
-        add(s, course.other(s));
-    }
-    constexpr double half = 0.5;  // of what is between two touches
-    if (line.own_image && needed > half && (course.pressed() || finer > 1.0)) {
-      const double middle = clear_of(strip, line.by_first ? line.s.back() : line.s.front());
-      add(middle, middle);
-    }
-  }
+      lines.push_back(divided(strip, strands, line, known));
+  Layer(strip, lines, profile, known, finer).lay();
   measure_parts(strip);
   return strip.successor();
 }

@@ -73,7 +73,11 @@ bool bring_to(Entry& entry, int link, double p) {
 bool overlaps_between(Entry& at, int link) {
   const chain::Topology& topology = at.problem->topology();
   const chain::Strands strands(topology);
-  if (strands.along(link) || strands.facing(link).empty()) return false;
+  const auto& facing = strands.facing(link);
+  const bool same_strands = std::any_of(facing.begin(), facing.end(), [&](const auto& stretch) {
+    return stretch.begin == link && stretch.end == link + 1;
+  });
+  if (strands.along(link) || !same_strands) return false;
   const chain::Profile shape = at.problem->profile(at.x, at.p);
   return std::any_of(shape.contacts.begin(), shape.contacts.end(), [&](const chain::Contact& c) {
     return c.coupling >= 0 && (c.joint == link || c.joint == link + 1) && c.gap_curvature < 0.0;

@@ -1,4 +1,5 @@
 // States as text and numbers, from which the discrete problem comes back to the last bit.
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -27,6 +28,9 @@ std::string chain_of(const RodProblem& problem) {
     chain["flats"].push_back(seat.flat);
     chain["middles"].push_back(static_cast<int>(seat.middle));
   }
+  const std::vector<chain::Seat>& on = problem.topology().on;
+  if (std::any_of(on.begin(), on.end(), [](const chain::Seat& seat) { return seat.shares != 0; }))
+    for (const chain::Seat& seat : on) chain["shares"].push_back(seat.shares);
   for (const auto& mesh : problem.meshes())
     chain["meshes"].push_back({{"nodes", mesh.nodes}, {"stages", mesh.stages}});
   return chain.dump();
@@ -53,11 +57,12 @@ std::shared_ptr<RodProblem> rebuild(const scene::Scene& scene, const std::string
   const auto lines = chain.value("lines", std::vector<int>());
   const auto flats = chain.value("flats", std::vector<int>());
   const auto stops = chain.value("stops", std::vector<int>()), middles = chain.value("middles", stops);
+  const auto shares = chain.value("shares", std::vector<int>());
   for (std::size_t j = 0; j < on.size(); ++j)
-    topology.on.push_back({on[j], j < strands.size() ? strands[j] : 0, j < parts.size() ? parts[j] : 0.0,
-                           j < lines.size() ? lines[j] : 0, j < stops.size() ? stops[j] : -1,
-                           j < flats.size() ? flats[j] : -1,
-                           j < middles.size() && stops[j] >= 0 && middles[j] == 1});
+    topology.on.push_back(
+        {on[j], j < strands.size() ? strands[j] : 0, j < parts.size() ? parts[j] : 0.0,
+         j < lines.size() ? lines[j] : 0, j < stops.size() ? stops[j] : -1, j < flats.size() ? flats[j] : -1,
+         j < middles.size() && stops[j] >= 0 && middles[j] == 1, j < shares.size() ? shares[j] : 0});
   std::vector<chain::ArcMesh> meshes;
   for (const auto& mesh : chain.at("meshes"))
     meshes.push_back({mesh.at("nodes").get<std::vector<double>>(), mesh.at("stages").get<int>()});

@@ -49,7 +49,8 @@ bool RodProblem::degenerate(const Vector& x, const Loads& at) const {
   constexpr double nothing = 1e-7;
   if (topology_.mid_touch && chain_->touch_force(x, at, 0) < nothing) return true;
   for (int j = 1; j < chain_->joint_count(); ++j) {
-    if (chain_->arclength(x, at, j) - chain_->arclength(x, at, j - 1) < nothing) return true;
+    if (!chain_->shares_place(j) && chain_->arclength(x, at, j) - chain_->arclength(x, at, j - 1) < nothing)
+      return true;
     const bool touch = chain_->joint(j).kind() == contact::JointKind::touch;
     if (touch && chain_->touch_force(x, at, j) < nothing) return true;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace windlass::equilibrium {
 
@@ -21,6 +22,7 @@ double nearer_between(const Profile& profile, const chain::Strands& strands, int
   double most = 0.0;
   for (const Contact& c : profile.contacts) {
     if (c.coupling < 0 || strands.line_of(c.joint) != line || !strands.inside_line(c.joint)) continue;
+    if (strands.pressed(c.joint) || strands.pressed(strands.partner(c.joint))) continue;
     const double h = span_of(profile, strands, c.joint);
     most = std::max(most, std::abs(c.force) * h * h * h / (192.0 * profile.material.bending_stiffness));
   }
@@ -53,23 +55,63 @@ ContactEvent spare_touches(const Profile& profile, const chain::Strands& strands
   return event;
 }
 
-std::optional<ContactEvent> laid_between(const Profile& profile, const chain::Strands& strands, int link) {
-  if (!strands.laid(link) && !strands.laid(link + 1)) return std::nullopt;
-  const auto keeps = [&](int joint) { return strands.laid(joint) || !strands.inside_line(joint); };
-  if (!keeps(link) || !keeps(link + 1)) return std::nullopt;  // located by tangency: it may meet the other
+namespace {
+
+/// Is one of the touches at the place of a joint of the line that ends at another?
+bool pressed_before_end(const chain::Strands& strands, int at, int end) {
+  const int line = strands.line_of(end);
+  if (line < 0 || strands.inside_line(end) || strands.partner(at) < 0) return false;
+  for (int j = at - 1; j >= 0 && strands.welded(j); --j)
+    if (strands.pressed(j) && strands.line_of(j) == line) return true;
+  for (int j = at + 1; strands.welded(j - 1); ++j)
+    if (strands.pressed(j) && strands.line_of(j) == line) return true;
+  return false;
+}
+
+/// Inside a line of free strands with their own image, where tangency says.
+bool found_by_tangency(const chain::Strands& strands, int joint) {
+  if (!strands.inside_line(joint) || strands.laid(joint)) return false;
+  const chain::StrandLine& line = strands.lines()[strands.line_of(joint)];
+  return line.own_image() && !line.on_obstacles;
+}
+
+}  // namespace
+
+std::optional<LaidAnew> laid_anew_at(const chain::Strands& strands, int link) {
   const auto [begin, end] = strands.located_about(link, link + 1);
+  if (pressed_before_end(strands, begin, end) || pressed_before_end(strands, end, begin))
+    return LaidAnew{begin, end, press_at_end};
+  for (const auto& [at, other] : {std::pair(begin, end), std::pair(end, begin)})
+    if (found_by_tangency(strands, at) && strands.line_of(other) != strands.line_of(at))
+      return LaidAnew{begin, end, at_middle};
+  for (const auto& [at, other] : {std::pair(link, link + 1), std::pair(link + 1, link)})
+    if (found_by_tangency(strands, at) && !strands.inside_line(other) &&
+        strands.line_of(other) != strands.line_of(at))
+      return LaidAnew{link, link + 1, at_middle};
+  return std::nullopt;
+}
+
+std::optional<ContactEvent> laid_between(const Profile& profile, const chain::Strands& strands, int link) {
+  const std::optional<LaidAnew> anew = laid_anew_at(strands, link);
+  if (!strands.laid(link) && !strands.laid(link + 1) && !anew) return std::nullopt;
+  const auto keeps = [&](int joint) { return strands.laid(joint) || !strands.inside_line(joint); };
+  if (!anew && (!keeps(link) || !keeps(link + 1)))
+    return std::nullopt;  // located by tangency: it may meet the other
+  const auto [first, last] = strands.located_about(link, link + 1);
+  const int begin = anew ? anew->begin : first, end = anew ? anew->end : last;
   ContactEvent event{ContactEvent::Kind::length, link, 1.0, profile.pieces[link].s(0)};
+  event.redrawn = anew.has_value();
   const int named = line_of_several(strands, end - 1) < 0 ? end - 1 : begin;
   if (link == named)
-    event.value =
-        profile.pieces[end].s(0) - profile.pieces[begin].s(0) - least_beside_strand * profile.unit_length;
+    event.value = profile.pieces[end].s(0) - profile.pieces[begin].s(0) -
+                  (anew ? anew->least : least_beside_strand) * profile.unit_length;
   return event;
 }
 
 double carried_pull(const Profile& profile, const chain::Strands& strands, int joint) {
   if (!strands.inside_line(joint)) return 0.0;
   const double h = span_of(profile, strands, joint);
-  return 12.0 * carried_between_strands * profile.material.bending_stiffness / (h * h * h);
+  return 12.0 * opened_between_strands * profile.material.bending_stiffness / (h * h * h);
 }
 
 }  // namespace windlass::equilibrium

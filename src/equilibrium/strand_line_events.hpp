@@ -16,10 +16,30 @@ ContactEvent spare_touches(const chain::Profile& profile, const chain::Strands& 
 /// between free strands.
 double nearer_between_touches(const chain::Profile& profile, const chain::Topology& topology);
 
+/// What is pressed on right before the end of a line has no touch there: the end itself takes it. From the second distance on it is laid
+/// without, at the first it is laid with one: F d²/3B of the rod's height over a span to the next touch is below what is carried [ρ].
+inline constexpr double press_apart = 6e-4, press_at_end = 4e-4;
+/// The same of the middle of a line between a strand and its own image, and of touches beyond it, which an edge, or what else
+/// locates itself, comes near [ρ].
+inline constexpr double apart_from_middle = 2e-3, at_middle = 1e-3;
+
+/// Length at which what a link is of, [begin, end] as joints, has the touches of its lines laid anew; nullopt: it is passed, or none of
+/// these.
+struct LaidAnew {
+  int begin, end;
+  double least;
+};
+std::optional<LaidAnew> laid_anew_at(const chain::Strands& strands, int link);
+
 /// What is between two joints that no line has inside it, and touches are laid in, as one length: they keep their parts of it.
 /// nullopt: no such touch is at the link.
 std::optional<ContactEvent> laid_between(const chain::Profile& profile, const chain::Strands& strands,
                                          int link);
+
+/// How far apart strands would come where a touch inside a line of theirs pulls [ρ]. Where the cylinder's point force at the edge of
+/// a line on it pushes a strand off the other, by Q, the pull opens them by 2·0.0044 Q⁴/p³: some 4e-9. The energy that the line does
+/// wrong there is Q times that, 1e-9 at most.
+inline constexpr double opened_between_strands = 1e-8;
 
 /// Of a line between strands the touches inside may pull, as its pressure changes its sign, with what would open the strands by
 /// no more than they may be nearer elsewhere: a force F lifts both over the span h of its neighbours by Fh³/12B.

@@ -143,13 +143,18 @@ int unite(const Strands::Facing& here, Strip& strip) {
 }  // namespace
 
 void measure_parts(Strip& strip) {
+  constexpr double inside = 1e-6;  // at a place that it shares with an end
   const int count = static_cast<int>(strip.s.size());
-  for (int j = 0; j < count; ++j) {
-    if (strip.on[j].part == 0.0) continue;
-    int begin = j, end = j;
-    while (begin > 0 && strip.on[begin].part > 0.0) --begin;
-    while (end + 1 < count && strip.on[end].part > 0.0) ++end;
-    strip.on[j].part = (strip.s[j] - strip.s[begin]) / (strip.s[end] - strip.s[begin]);
+  const auto located = [&](int j) {  // in the middle of a line with the own image, too
+    return strip.on[j].part == 0.0 || (strip.on[j].line != 0 && partner(strip, j) == j);
+  };
+  std::vector<int> bounds;
+  for (int j = 0; j < count; ++j)
+    if (j == 0 || j + 1 == count || located(j)) bounds.push_back(j);
+  for (std::size_t k = 0; k + 1 < bounds.size(); ++k) {
+    const double begin = strip.s[bounds[k]], length = strip.s[bounds[k + 1]] - begin;
+    for (int j = bounds[k] + 1; j < bounds[k + 1]; ++j)
+      strip.on[j].part = std::clamp((strip.s[j] - begin) / length, inside, 1.0 - inside);
   }
 }
 
@@ -186,6 +191,21 @@ std::optional<Successor> line_joins(int joint, const chain::Profile& profile, co
       return with_touches(skeleton_of(strip).strip.successor(), profile, topology);
     }
   return std::nullopt;
+}
+
+std::optional<Successor> line_of_three(int joint, const chain::Profile& profile, const Topology& topology,
+                                       Strip strip) {
+  constexpr double near = 0.2;
+  const Strands strands(topology);
+  const int last = static_cast<int>(strip.s.size()) - 1;
+  if (strands.partner(joint) != joint || strands.line_of(joint) >= 0 || joint < 1 || joint >= last ||
+      strands.partner(joint - 1) != joint + 1 ||
+      strip.s[joint + 1] - strip.s[joint - 1] > near * profile.unit_length)
+    return std::nullopt;
+  mark_line(strip, {joint - 1, joint, joint + 1}, {}, true, new_strand(strip));
+  strip.on[joint].part = 0.5;
+  measure_parts(strip);
+  return strip.successor();
 }
 
 bool next_to_line(const ContactEvent& event, const Topology& topology) {

@@ -41,6 +41,10 @@ std::optional<Successor> line_with_next(int joint, const chain::Profile& profile
 std::optional<Successor> line_joins(int joint, const chain::Profile& profile, const chain::Topology& topology,
                                     Strip strip);
 
+/// A strand that touches its own image between two touches with it, right beside each other: one line. nullopt: it does not.
+std::optional<Successor> line_of_three(int joint, const chain::Profile& profile,
+                                       const chain::Topology& topology, Strip strip);
+
 /// Do two strands come near each other next to a line of theirs?
 bool next_to_line(const ContactEvent& event, const chain::Topology& topology);
 

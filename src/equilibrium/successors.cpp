@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "line_touches.hpp"
+#include "strand_line_events.hpp"
 #include "strand_successors.hpp"
 #include "strip.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
@@ -268,6 +269,22 @@ std::vector<Successor> after_skeleton(const ContactEvent& event, const Profile& 
   return out;
 }
 
+/// Are the joints about a place where they were, but for what is little next to the distance between them?
+bool alike(const Successor& next, const Strip& strip, double s) {
+  constexpr double about = 0.05, little = 0.1;
+  const auto near = [&](const std::vector<double>& all) {
+    std::vector<double> out;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(out),
+                 [&](double at) { return std::abs(at - s) < about; });
+    return out;
+  };
+  const std::vector<double> before = near(strip.s), after = near(next.s);
+  if (before.size() != after.size()) return false;
+  for (std::size_t k = 1; k + 1 < before.size(); ++k)
+    if (std::abs(after[k] - before[k]) > little * (before[k + 1] - before[k - 1])) return false;
+  return true;
+}
+
 /// Candidates for what follows the event, the other half of a symmetric full chain left as it is.
 std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profile, const Topology& topology,
                                  const std::vector<double>& s) {
@@ -281,6 +298,8 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
     case Kind::length:
       if (profile.pieces[event.place].stretch == Stretch::tail) return {end_of_rod(strip)};
       if (const auto flat = flat_line_begins_or_ends(event.place, profile, strip)) return {*flat};
+      if (event.redrawn && laid_anew_at(chain::Strands(topology), event.place))
+        return {with_touches(skeleton_of(strip).strip.successor(), profile, topology)};
       if (const auto fewer = line_with_fewer_touches(profile, topology, event.place, strip)) return {*fewer};
       return after_skeleton(event, profile, topology, strip);
     case Kind::force:
@@ -289,8 +308,10 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
       if (const auto opened = line_opens(event.place, topology, strip)) {
         std::vector<Successor> out = {*opened}, parted = strands_part(event.place, strip);
         out.insert(out.end(), parted.begin(), parted.end());
-        if (event.redrawn)  // laid unevenly touches pull, too
-          out.insert(out.begin(), with_touches(skeleton_of(strip).strip.successor(), profile, topology));
+        if (event.redrawn) {  // laid unevenly touches pull, too
+          const Successor anew = with_touches(skeleton_of(strip).strip.successor(), profile, topology);
+          if (!alike(anew, strip, event.s)) out.insert(out.begin(), anew);
+        }
         return out;
       }
       if (strip.on[event.place].strand != 0) return strands_part(event.place, strip);
@@ -301,6 +322,7 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
         std::vector<Successor> out = after_skeleton(event, profile, topology, strip);
         if (const auto joined = line_joins(event.place, profile, topology, strip))
           out.insert(out.begin(), *joined);
+        if (const auto line = line_of_three(event.place, profile, topology, strip)) out.push_back(*line);
         return out;
       }
       return after_curvature(event, strip, profile);
@@ -342,6 +364,7 @@ Successor mirrored(const Successor& next, bool right_changed, int links) {
     if (image) out.strand = image_strand(next, joint);
     if (image) out.line = image_line(next, joint);
     if (image && out.part > 0.0) out.part = 1.0 - out.part;
+    if (image) out.shares = -out.shares;
     return out;
   };
   constexpr double middle = 1e-9;
@@ -392,6 +415,18 @@ void join_lines(Successor& next) {
   }
 }
 
+/// Does a touch say that it is at the place of one that is elsewhere now, or gone?
+bool parted(const Successor& next) {
+  const auto count = static_cast<int>(next.s.size());
+  for (int j = 0; j < count; ++j) {
+    const int shares = next.topology.seat(j).shares, at = j + shares;
+    if (shares != 0 &&
+        (at < 0 || at >= count || next.s[at] != next.s[j] || next.topology.seat(at).strand == 0))
+      return true;
+  }
+  return false;
+}
+
 bool symmetric(const Topology& topology, const std::vector<double>& s) {
   constexpr double same = 1e-4;  // short gaps amplify rounding; what is built on it is solved and checked
   if (topology.half ||
@@ -413,6 +448,7 @@ std::vector<Successor> successors(const ContactEvent& event, const Profile& prof
                                   const std::vector<double>& s) {
   std::vector<Successor> out;
   for (Successor& next : one_sided(event, profile, topology, s)) {
+    if (parted(next)) next = with_touches(skeleton_of(Strip(next)).strip.successor(), profile, topology);
     // Of a symmetric state mirror images go together.
     if (symmetric(topology, s) && !is_symmetric(next))
       out.push_back(mirrored(next, event.s > 0.0, static_cast<int>(profile.pieces.size())));

@@ -49,12 +49,14 @@ double distance_that_counts(const Solution& solution, std::size_t k) {
   return std::isinf(farther) ? 1.0 : 0.5 * farther;
 }
 
-/// Inside a line between strands a touch may pull with what would open them by no height at all: over the span h to its neighbours
-/// by Fh³/12.
+/// Inside a line between strands a touch may pull with what would open them, over the span h to its neighbours by Fh³/12, by a height
+/// that costs no energy: beside the edge of a line on the cylinder, whose point force pushes a strand off the other, by 4e-9.
+constexpr double opened = 1e-8;
 double judged_between(const Solution& solution, std::size_t k, const Scales& scales) {
   const double force = solution.joints[k].strand_force, span = distance_that_counts(solution, k);
-  return force < 0.0 && span < 1.0 && -force * 8.0 * span * span * span / 12.0 < tight ? 0.0
-                                                                                       : force / scales.force;
+  return force < 0.0 && span < 1.0 && -force * 8.0 * span * span * span / 12.0 < opened
+             ? 0.0
+             : force / scales.force;
 }
 
 }  // namespace

@@ -179,6 +179,24 @@ BOOST_AUTO_TEST_CASE(the_way_there_and_back) {
   for (int k : {0, 1}) BOOST_TEST(std::abs(events[0][k] - events[1][k]) < 1e-7);
 }
 
+BOOST_AUTO_TEST_CASE(tails_that_press_on_a_line_of_the_middle_strand) {
+  // Through the event where one tail comes to press on a line of the other with the middle strand: a point force of that line, at the same
+  // place. All states pass, the certificate of H to 1e-9 among them (4e-9 with that force between two touches), and are stable:
+  // strands may slide along each other (a count with both held has negative directions).
+  const TemporaryFolder folder;
+  std::vector<std::string> command =
+      tied("continue", 0.285714, {"continuation.from=3.45", "continuation.to=3.55"});
+  command.insert(command.end(), {"--out", "run", "--quiet"});
+  BOOST_TEST(run_program(command, folder.path()).status == 0);
+  BOOST_TEST(run_program({"verify", "run", "--quiet"}, folder.path()).status == 0);
+  const auto rows = read_csv(folder.path() / "run" / "branches.csv").rows;
+  BOOST_REQUIRE(rows.size() > 3U);
+  for (const auto& row : rows) {
+    BOOST_TEST(row.at("index") == "0");
+    BOOST_TEST(std::stod(row.at("eigenvalue_1")) > 0.0);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_curve_of_ones_own) {
   // The clove hitch's own curve, from a file, is the clove hitch.
   const TemporaryFolder folder;

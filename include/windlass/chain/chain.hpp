@@ -24,8 +24,9 @@ using Eigen::VectorXd;
 /// One arc of a chain with the data that make it part of it.
 struct Link {
   std::unique_ptr<Arc> arc;
-  std::string role;  ///< "line", "gap" or "tail"
-  int pull = 0;      ///< 0: n unknown; ±1: n is the dead pull of the right end / minus the left one's
+  std::string role;   ///< "line", "gap" or "tail"
+  bool weld = false;  ///< of no length: the joints at its ends are one place, with the same unknowns
+  int pull = 0;       ///< 0: n unknown; ±1: n is the dead pull of the right end / minus the left one's
 };
 
 /// What lets a rod rest on a cylinder that slips along it (PHYSICS, "Steady sliding"): an unknown in the place of the force
@@ -94,6 +95,8 @@ class Chain {
   const std::vector<Coupling>& couplings() const { return couplings_; }
   /// Of a joint, its place among the couplings; −1: none.
   int coupling_of(int joint) const { return coupling_of_[joint]; }
+  /// Is a joint at the place of the one before, with its unknowns?
+  bool shares_place(int joint) const { return joint > 0 && links_[joint - 1].weld; }
   /// Does a joint touch along a line between strands?
   bool along_strand(int joint) const {
     return coupling_of_[joint] >= 0 && couplings_[coupling_of_[joint]].along;

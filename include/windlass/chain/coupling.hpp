@@ -18,10 +18,15 @@ namespace windlass::chain {
 /// inside divide what is between two joints on the first strand that locate themselves, tangency locates the second's places; where a
 /// strand touches its own
 /// image tangency does it all.
+///
+/// **Two couplings at one place.** Where another contact presses on a strand of a line, or another line runs along it, what goes
+/// on to the second strand does so right there. The same section of the rod then is two joints, each with its coupling and the
+/// same unknowns, with a link of no length between them (`Link::weld`); one of the two couplings locates it.
 struct Coupling {
   int first = 0, second = 0;  ///< joints
   bool mirrored = false;
   bool along = false;        ///< of a line: moving it costs nothing
+  bool placed = false;       ///< the first joint is where another coupling has one, which locates it
   int begin = -1, end = -1;  ///< inside a line: the joints about it that locate themselves
   double part = 0.0;         ///< where between them
   bool with_itself() const { return first == second; }

@@ -22,6 +22,7 @@ struct Piece {
   VectorXd p;            ///< contact force per length
   VectorXd inclination;  ///< of the tangent to the plane of the cylinder's section [rad]
   double force = 0.0;    ///< ∫ p ds
+  bool weld = false;     ///< of no length, between touches at one place
   /// Of a line that carries no pressure, see rod::buckling_margin.
   std::optional<double> buckling;
 };

@@ -35,6 +35,13 @@ class Strands {
   /// Is it one that is laid at a fixed part of what is between two joints (chain/coupling.hpp)? On its other strand tangency locates
   /// it. Of a line's two strands, or halves, that one is divided on which more joints of other contacts are.
   bool laid(int joint) const { return joint >= 0 && laid_[joint]; }
+  /// Of a line's two strands, is the first the one that is divided?
+  bool divides_first(const StrandLine& line) const;
+  /// Is a touch of a line where a contact that is inside none presses on the strand? What of that goes on to the other strand is
+  /// a point force.
+  bool pressed(int joint) const;
+  /// Has a link no length, because the touches at its ends are at one place?
+  bool welded(int link) const { return shares_[link] > 0 || shares_[link + 1] < 0; }
   /// The next joints before and after a touch inside a line, or a link, that are inside none.
   std::array<int, 2> between(int joint) const { return located_about(joint - 1, joint + 1); }
   std::array<int, 2> located_about(int before, int after) const;
@@ -59,10 +66,12 @@ class Strands {
   void find_lines(const Topology& topology);
   void find_lines_on_obstacles(const Topology& topology, const std::vector<int>& touches);
   void find_laid();
+  /// Joints between two, but for those inside lines.
+  int others(int begin, int end) const;
   void add(const Facing& facing);
   void face(const std::vector<int>& touches);
 
-  std::vector<int> partner_, line_of_;
+  std::vector<int> partner_, line_of_, shares_;
   std::vector<bool> mirrored_, laid_;
   std::vector<StrandLine> lines_;
   std::vector<std::vector<Facing>> facing_;

@@ -34,6 +34,9 @@ struct Seat {
   /// The line that begins here, or the touch that is here, lies on this obstacle, a plate, too; −1: on its own alone.
   int flat = -1;
   bool middle = false;  ///< of a stop: at s = 0, see contact::spatial::Stopped
+  /// Of a line between strands where another contact presses on one of them: that strand's place is that of the touch before
+  /// (−1) or behind (1), and the link between the two has no length; 0: it has a place of its own.
+  int shares = 0;
   bool operator==(const Seat& other) const = default;
 };
 

@@ -95,7 +95,37 @@ BOOST_AUTO_TEST_CASE(a_line_with_the_own_image_is_laid_on_the_half_with_other_jo
   const Topology bare =
       of({{0, 1, 0.0, 7}, {0, 2, 0.3, 7}, {0, 3, 0.5, 7}, {0, -2, 0.6, 7}, {0, -1, 0.0, 7}});
   BOOST_TEST(Strands(bare).laid(2));
-  BOOST_TEST(Strands(bare).between(2) == (std::array<int, 2>{1, 5}), boost::test_tools::per_element());
+  // As a part of what is up to the middle, where tangency holds the third: the lower half goes on like the upper one.
+  BOOST_TEST(Strands(bare).between(2) == (std::array<int, 2>{1, 3}), boost::test_tools::per_element());
+}
+
+BOOST_AUTO_TEST_CASE(where_another_contact_presses_on_a_line_it_has_a_touch_there) {
+  // A strand (1, 2, 3) on another (4, 5, 7); joint 6, at the place of 5, touches a third one (8).
+  const Topology t = of({{0, 1, 0.0, 9},
+                         {0, 2, 0.4, 9},
+                         {0, 3, 0.0, 9},
+                         {0, 1, 0.0, -9},
+                         {.strand = 2, .part = 1.0, .line = -9, .shares = 1},
+                         {0, 4},
+                         {0, 3, 0.0, -9},
+                         {0, 4}});
+  const Strands s(t);
+  BOOST_TEST(s.laid(5));
+  BOOST_TEST(s.pressed(5));
+  BOOST_TEST(!s.pressed(2));
+  BOOST_TEST(s.welded(5));
+  BOOST_TEST(!s.welded(4));
+  BOOST_TEST(t.couplings()[1].placed);
+  BOOST_TEST(t.couplings()[1].first == 5);
+  BOOST_TEST(!t.couplings()[3].placed);
+  // On the other half the order is the other.
+  const Topology whole = unfolded(t);
+  const int middle = static_cast<int>(whole.on.size()) / 2;
+  int before = 0, behind = 0;
+  for (int j = 0; j < static_cast<int>(whole.on.size()); ++j)
+    if (whole.on[j].shares != 0) (j < middle ? before : behind) += whole.on[j].shares;
+  BOOST_TEST(before == -1);
+  BOOST_TEST(behind == 1);
 }
 
 BOOST_AUTO_TEST_CASE(two_touches_next_to_each_other_are_no_line) {
