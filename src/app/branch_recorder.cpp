@@ -144,8 +144,8 @@ void BranchRecorder::on_point(const Branch& branch, const Point& point) {
     writer_.add_point(last_, solution);
     ++points_;
     if (progress_.due())
-      progress_.update(fmt::format("branch {}  point {}  {}  index {}", branch.id + 1, in_branch_,
-                                   place(last_), point.index));
+      progress_.update(fmt::format("branch {}  point {}  {}", branch.id + 1, in_branch_, place(last_)) +
+                       (last_.index ? fmt::format("  index {}", *last_.index) : ""));
   } catch (const std::domain_error&) {  // an event at the very edge of the domain: nothing to store
   }
   resumed_ = Clock::now();
@@ -184,12 +184,13 @@ void BranchRecorder::on_special_point(const Branch& branch, const Point& point) 
       try {
         const auto modes =
             stability::analyse(problem, point.x, point.p, zero_modes_wanted(point), true, solver_).modes;
-        mode = *std::min_element(modes.begin(), modes.end(), [zero](const auto& a, const auto& b) {
-          const auto rank = [zero](const equilibrium::Mode& m) {
-            return std::abs(m.eigenvalue) > zero ? std::abs(m.eigenvalue) : m.parity == "even" ? -1.0 : 0.0;
-          };
-          return rank(a) < rank(b);
-        });
+        if (!modes.empty())  // of a dragged state none are drawn
+          mode = *std::min_element(modes.begin(), modes.end(), [zero](const auto& a, const auto& b) {
+            const auto rank = [zero](const equilibrium::Mode& m) {
+              return std::abs(m.eigenvalue) > zero ? std::abs(m.eigenvalue) : m.parity == "even" ? -1.0 : 0.0;
+            };
+            return rank(a) < rank(b);
+          });
       } catch (const std::domain_error&) {  // no spectrum right at the zero
       } catch (const std::runtime_error&) {
       }

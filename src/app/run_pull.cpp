@@ -195,6 +195,10 @@ int run_pull(const PullRequest& request) {
   if (!scene.slides())
     throw scene::SceneError(scene.name +
                             ": cylinder.sliding: missing; a pull needs \"up\", a friction and a plate");
+  if (scene.ends.left_kind() != scene::EndKind::moment_free ||
+      scene.ends.right_kind() != scene::EndKind::moment_free)
+    throw scene::SceneError(scene.name +
+                            ": ends.kind: a pull needs \"moment_free\": the discrete rod's ends turn");
   const std::vector<double> meshes = meshes_of(request, scene::natural(scene).load.tension);
   petsc::ensure_session();
   PullResult result;

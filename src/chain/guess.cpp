@@ -102,13 +102,16 @@ VectorXd guess_state(const Chain& chain, const Topology& topology, const RodKind
   if (chain.holds_slide())
     for (int j = 0; j < chain.joint_count(); ++j)
       if (const double share = chain.slide_share(j)) chain.slide_place(x) += share * s[j];
+  chain.set_travelled(x, profile.travelled);
   for (int i = 0; i < chain.link_count(); ++i) {
     const Arc& arc = *chain.link(i).arc;
     const double begin = s[i], length = s[i + 1] - s[i];
     const obstacle::Surface* surface =
         kinds[i] == Stretch::line ? &rod.obstacles[topology.obstacle(i)] : nullptr;
+    // An arc that changes the force it carries begins with its own; at the joint itself the one before it ends.
+    const double where = arc.carried() > 0 ? 1e-6 : 0.5;
     if (chain.link(i).pull == 0)
-      adopt_force(surface, profile.at(begin + 0.5 * length), 0.5 * length * profile.material.weight,
+      adopt_force(surface, profile.at(begin + where * length), 0.5 * length * profile.material.weight,
                   chain.force(x, i), arc.forces());
     double no_twist = 0.0;
     if (surface && rod.spatial)

@@ -293,6 +293,7 @@ Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod
   out.material = rod.material(loads);
   out.unit_length = rod.unit_length;
   out.radius = loads.radius;
+  out.travelled = chain.travelled(x);
   for (int i = 0; i < chain.link_count(); ++i)
     out.pieces.push_back(sample_link(chain, rod, x, loads, i, topology));
   fill_welds(chain, x, out.pieces);

@@ -1,5 +1,6 @@
 #include "profile_contacts.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "windlass/obstacle/cylinder.hpp"
@@ -79,12 +80,38 @@ Contact strand_contact(const Chain& chain, const Topology& topology, const rod::
   return c;
 }
 
+/// Whole turns from one unrolled angle to another.
+double turns(double from, double to) { return 2.0 * M_PI * std::round((from - to) / (2.0 * M_PI)); }
+
+double last(const Piece& piece) { return piece.angle(piece.angle.size() - 1); }
+
+/// Is it a plate beside a cylinder? It does not know how often the rod has gone round.
+bool on_plate(const Contact& c, const obstacle::Set& obstacles) {
+  return c.coupling < 0 && c.obstacle > 0 && obstacles[c.obstacle].curvature() == 0.0 &&
+         obstacles[0].curvature() != 0.0;
+}
+
+/// Beyond touches of a plate the rod goes on where it is, outward from the contacts of the cylinder.
+void carry_turns_past_plates(std::vector<Contact>& contacts, std::vector<Piece>& pieces,
+                             const obstacle::Set& obstacles) {
+  const auto first = std::find_if(contacts.begin(), contacts.end(),
+                                  [&](const Contact& c) { return !on_plate(c, obstacles); });
+  for (auto c = first; c != contacts.end(); ++c) {
+    if (!on_plate(*c, obstacles)) continue;
+    Piece &before = pieces[c->joint - 1], &after = pieces[c->joint];
+    c->angle += turns(last(before), c->angle);
+    after.angle.array() += turns(c->angle, after.angle(0));
+  }
+  for (auto c = first; c != contacts.begin();) {
+    --c;
+    Piece &before = pieces[c->joint - 1], &after = pieces[c->joint];
+    c->angle += turns(after.angle(0), c->angle);
+    before.angle.array() += turns(c->angle, last(before));
+  }
+}
+
 /// Strands have no obstacle to count turns round: beyond one the rod goes on where it is.
 void carry_turns(std::vector<Contact>& contacts, std::vector<Piece>& pieces) {
-  const auto turns = [](double from, double to) {
-    return 2.0 * M_PI * std::round((from - to) / (2.0 * M_PI));
-  };
-  const auto last = [](const Piece& piece) { return piece.angle(piece.angle.size() - 1); };
   for (Contact& c : contacts) {
     if (c.coupling < 0) continue;
     Piece &before = pieces[c.joint - 1], &after = pieces[c.joint];
@@ -113,11 +140,13 @@ void add_contacts(const Chain& chain, const Topology& topology, const VectorXd& 
   // Free pieces take their turn count from a neighbouring contact.
   for (const Contact& c : out.contacts)
     for (const int i : {c.joint - 1, c.joint}) {
-      if (i < 0 || c.coupling >= 0 || out.pieces[i].stretch == Stretch::line) continue;
+      if (i < 0 || c.coupling >= 0 || on_plate(c, out.obstacles) || out.pieces[i].stretch == Stretch::line)
+        continue;
       Piece& piece = out.pieces[i];
       const double here = i == c.joint ? piece.angle(0) : piece.angle(piece.angle.size() - 1);
       piece.angle.array() += 2.0 * M_PI * std::round((c.angle - here) / (2.0 * M_PI));
     }
+  carry_turns_past_plates(out.contacts, out.pieces, out.obstacles);
   carry_turns(out.contacts, out.pieces);
 }
 

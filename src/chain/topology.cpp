@@ -96,6 +96,9 @@ std::unique_ptr<Joint> contact_joint(const RodKind& rod, const Topology& t, int 
     throw std::invalid_argument("two line contacts cannot meet at a joint");
   if (left != Stretch::line && right != Stretch::line) {
     if (seat.strand != 0) return std::make_unique<spatial::Strand>();
+    if (t.touches_flat(joint))
+      return std::make_unique<spatial::FlatTouch>(rod.obstacles.pointer(obstacle),
+                                                  rod.obstacles.pointer(seat.flat));
     if (rod.spatial) return std::make_unique<spatial::Touch>(rod.obstacles.pointer(obstacle));
     return std::make_unique<planar::Touch>();
   }
@@ -153,6 +156,8 @@ std::optional<contact::Parity> neutral_turn(const RodKind& rod, const Topology& 
   if (!(std::abs(half_turns - whole) < nearly)) return std::nullopt;
   const std::vector<Stretch>& all = t.stretches;
   if (std::find(all.begin(), all.end(), Stretch::line) != all.end()) return std::nullopt;
+  for (int j = 1; j < static_cast<int>(all.size()); ++j)
+    if (t.touches_flat(j)) return std::nullopt;  // the plate holds it
   if (std::remainder(whole, 2.0) == 0.0)
     return rod.clamped() && !rod.isotropic_straight() ? std::nullopt : std::optional(contact::Parity::odd);
   return rod.clamped() ? std::nullopt : std::optional(contact::Parity::even);
@@ -171,7 +176,8 @@ bool any_on_obstacle(const RodKind& rod, const Topology& t, const Condition& con
 /// Does the rod touch an obstacle that does not let it move along the axis?
 bool on_plate(const RodKind& rod, const Topology& t) {
   for (int j = 1; j < static_cast<int>(t.stretches.size()); ++j)
-    if (t.lies_flat(j) || (t.seat(j).strand == 0 && rod.obstacles[t.pushed_by(j)].curvature() == 0.0))
+    if (t.lies_flat(j) || t.touches_flat(j) ||
+        (t.seat(j).strand == 0 && rod.obstacles[t.pushed_by(j)].curvature() == 0.0))
       return true;
   return false;
 }

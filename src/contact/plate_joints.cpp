@@ -107,6 +107,55 @@ void FlatEdge::adopt(const Place& place, double* w) const {
   w[0] = all[0], w[1] = all[3];
 }
 
+FlatTouch::FlatTouch(SurfacePointer cylinder, SurfacePointer plate)
+    : touch_(std::move(cylinder)), base_(plate->base_frame(Vector2d::Zero())), height_(height_of(*plate)) {}
+
+std::array<double, 6> FlatTouch::as_touch(const double* w) const {
+  const rod::Quaternion q = surface_frame(base_, w[1], w[2]);
+  return {w[0], height_, q(0), q(1), q(2), q(3)};
+}
+
+SmallMatrix FlatTouch::by_own(const double* w) const {
+  constexpr double no_curvature = 0.0;
+  SmallMatrix out = SmallMatrix::Zero(touch_.tangent(), tangent());
+  out(0, 0) = 1.0;
+  out.bottomRightCorner<3, 2>() = surface_spins(no_curvature, w[1], w[2]).rightCols<2>();
+  return out;
+}
+
+double FlatTouch::slide(const double* w) const { return touch_.slide(as_touch(w).data()); }
+
+Attachment FlatTouch::attach(Side side, const double* w, const Loads& loads) const {
+  const SmallMatrix own = by_own(w);
+  Attachment at = touch_.attach(side, as_touch(w).data(), loads);
+  at.dq = (at.dq * own).eval();
+  at.dx = (at.dx * own).eval();
+  if (at.tested) at.tested = (*at.tested * own).eval();
+  return at;
+}
+
+void FlatTouch::curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q,
+                          const SmallVector& f, SmallMatrix& out) const {
+  const SmallMatrix own = by_own(w);
+  SmallMatrix all = SmallMatrix::Zero(touch_.tangent(), touch_.tangent());
+  touch_.curvature(side, as_touch(w).data(), loads, g_q, f, all);
+  out += own.transpose() * all * own;
+  out(1, 2) += 0.5 * Eigen::Vector3d(g_q).dot(Eigen::Vector3d(-std::sin(w[2]), -std::cos(w[2]), 0.0));
+}
+
+Joint::Location FlatTouch::location(const double* w, const SmallVector& g_left,
+                                    const SmallVector& g_right) const {
+  Location c = touch_.location(as_touch(w).data(), g_left, g_right);
+  c.by_w = (by_own(w).transpose() * c.by_w).eval();
+  return c;
+}
+
+void FlatTouch::adopt(const Place& place, double* w) const {
+  w[0] = touch_.surface()->coordinates(place.r, place.angle)(0);
+  Eigen::Map<Vector2d>{w + 1} = surface_coordinates(place.q, base_);
+  if (surface_frame(base_, w[1], w[2]).dot(place.q) < 0.0) w[2] += 2.0 * M_PI;  // the quaternion of this sign
+}
+
 LiftOff::LiftOff(Side flat_side, SurfacePointer line, SurfacePointer plate)
     : flat_(flat_side), line_(std::move(line)), plate_(std::move(plate)), height_(height_of(*plate_)) {}
 

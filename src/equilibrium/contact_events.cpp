@@ -9,6 +9,7 @@
 #include "strand_line_events.hpp"
 #include "windlass/chain/self_distance.hpp"
 #include "windlass/rod/free_flow.hpp"
+#include "windlass/rod/quaternion.hpp"
 
 namespace windlass::equilibrium {
 
@@ -79,20 +80,26 @@ std::optional<Least> dip_beside(const Profile& profile, const Piece& piece, cons
 }
 
 /// Beyond its last contact nothing pushes a rod round a cylinder out of the plane of its pull and its tangent: behind a touch of a
-/// plate that tail lies flat in the plate, with neither gap nor curvature there (PHYSICS, "Steady sliding").
-bool lies_flat(const Profile& profile, int link, int obstacle) {
-  if (profile.pieces[link].stretch != Stretch::tail || !profile.obstacles[0].slips() || obstacle == 0)
-    return false;
+/// plate that tail lies flat in the plate, with neither gap nor curvature there (PHYSICS, "Steady sliding"). So does all that is
+/// free beside a touch of cylinder and plate at once.
+bool lies_flat(const Profile& profile, const Topology& topology, int link, int obstacle) {
+  for (const int joint : {link, link + 1})
+    if (topology.touches_flat(joint) && topology.seat(joint).flat == obstacle) return true;
+  constexpr double twisted = 1e-9;  // of the usual moment √T: a tail that carries torsion is not plane
+  const Piece& tail = profile.pieces[link];
+  if (tail.stretch != Stretch::tail || !profile.obstacles[0].slips() || obstacle == 0) return false;
+  const double twist = tail.m.col(0).dot(rod::directors(tail.q.col(0)).col(2));
+  if (std::abs(twist) > twisted * std::max(1.0, std::sqrt(tail.n.col(0).norm()))) return false;
   return std::any_of(profile.contacts.begin(), profile.contacts.end(), [&](const Contact& c) {
     return c.obstacle == obstacle && (c.joint == link || c.joint == link + 1);
   });
 }
 
 /// Does a tail beside this touch lie flat in its obstacle?
-bool before_flat_tail(const Profile& profile, const Contact& c) {
+bool before_flat_tail(const Profile& profile, const Topology& topology, const Contact& c) {
   const int count = static_cast<int>(profile.pieces.size());
-  return c.coupling < 0 && ((c.joint > 0 && lies_flat(profile, c.joint - 1, c.obstacle)) ||
-                            (c.joint < count && lies_flat(profile, c.joint, c.obstacle)));
+  return c.coupling < 0 && ((c.joint > 0 && lies_flat(profile, topology, c.joint - 1, c.obstacle)) ||
+                            (c.joint < count && lies_flat(profile, topology, c.joint, c.obstacle)));
 }
 
 /// Least local minimum of the gap to an obstacle inside a free arc. Next to a contact the gap is flat and its samples are
@@ -152,11 +159,12 @@ bool hardly_apart(const Profile& profile, int link) {
 /// no line carries it.
 std::optional<double> beyond_carried(const Profile& profile, int link, bool begins_at_mid) {
   constexpr double shorter = 0.6;
-  int edges = 0, touches = 0;
+  int edges = 0, touches = 0, obstacle = -1;
   double force = 0.0;
   for (const Contact& c : profile.contacts) {
     if (c.joint != link && c.joint != link + 1) continue;
-    if (c.coupling >= 0) return std::nullopt;
+    if (c.coupling >= 0 || (obstacle >= 0 && c.obstacle != obstacle)) return std::nullopt;
+    obstacle = c.obstacle;
     ++(c.edge ? edges : touches);
     if (c.edge) force += c.force;
   }
@@ -345,7 +353,7 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
       events.push_back({Kind::buckling, i, piece.buckling.value_or(far), piece.s(0)});
     else
       for (int o = 0; o < profile.obstacles.size(); ++o)
-        if (!lies_flat(profile, i, o)) events.push_back(graze(profile, o, i, at_mid));
+        if (!lies_flat(profile, topology, i, o)) events.push_back(graze(profile, o, i, at_mid));
   }
   const std::vector<chain::Coupling> couplings = topology.couplings();
   for (const Contact& c : profile.contacts) {
@@ -355,7 +363,7 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
     events.back().redrawn = strands.inside_line(c.joint);
     if (c.reaction) events.push_back(reaction_event(profile, c));
     // Of a line between strands g'' = 0.
-    if (c.edge || strands.line_of(c.joint) >= 0 || before_flat_tail(profile, c)) continue;
+    if (c.edge || strands.line_of(c.joint) >= 0 || before_flat_tail(profile, topology, c)) continue;
     const double bend = c.gap_curvature - least_curvature_at(profile, c);
     events.push_back({Kind::curvature, c.joint, about_to_meet(profile, strands, c) ? 1.0 : bend, c.s});
   }

@@ -10,6 +10,7 @@
 #include "entry.hpp"
 #include "harvest.hpp"
 #include "windlass/equilibrium/search.hpp"
+#include "windlass/rod/capstan.hpp"
 
 namespace windlass::equilibrium {
 
@@ -147,13 +148,15 @@ std::optional<Started> dragged_on(const scene::Scene& scene, const chain::Profil
 
 Started flat_on_plate(const scene::Scene& scene, const std::vector<std::string>& keys) {
   std::string failure;
-  const std::optional<Started> still = followed_coil(standing(scene), true, false, keys, failure);
+  // Without a line the coil in space is free to turn: its shape is that of the plane.
+  const bool lies = rod::capstan::line_contact(scene.load.tension, scene.load.angle);
+  const std::optional<Started> still = followed_coil(standing(scene), lies, false, keys, failure);
   if (!still) throw NoEquilibrium("there is no flat coil: " + failure);
   Topology topology = still->problem->topology();
-  const bool line = topology.stretches == std::vector<Stretch>{Stretch::tail, Stretch::line, Stretch::tail};
-  if (!line) return cold_start(scene, false, true, keys);
   topology.on.resize(topology.stretches.size() + 1);
-  topology.on[1].flat = plate;
+  for (int j = 1; j < static_cast<int>(topology.stretches.size()); ++j)
+    if (topology.stretches[j] == Stretch::line || topology.stretches[j - 1] != Stretch::line)
+      topology.on[j].flat = plate;
   const chain::Profile shape = still->problem->profile(still->x, still->p);
   const std::vector<double> s = still->problem->joint_places(still->x, still->p, shape);
   auto laid =

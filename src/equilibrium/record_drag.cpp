@@ -18,8 +18,8 @@ double drag_on_plate(Solution& state, const Topology& topology, double upward) {
     ArcRecord& arc = state.arcs[static_cast<std::size_t>(k)];
     JointRecord& joint = state.joints[static_cast<std::size_t>(k)];
     if (topology.lies_flat(k)) arc.plate_force = upward * arc.force;
-    const bool edge = topology.lies_flat(k) || topology.lies_flat(k - 1);
-    if (edge && joint.obstacle == 0) joint.plate_force = upward * joint.force;
+    const bool flat = topology.lies_flat(k) || topology.lies_flat(k - 1) || topology.touches_flat(k);
+    if (flat && joint.obstacle == 0) joint.plate_force = upward * joint.force;
     sum += arc.plate_force + joint.plate_force;
   }
   return sum;
@@ -32,7 +32,8 @@ double axial_drag(const Solution& state, const Topology& topology) {
     if (topology.lies_flat(k)) continue;
     const ArcRecord& arc = state.arcs[static_cast<std::size_t>(k)];
     if (arc.kind == ArcKind::line && arc.obstacle == 0) sum += arc.n(2, 0) - arc.n(2, arc.n.cols() - 1);
-    if (k == 0 || topology.lies_flat(k - 1) || state.joints[static_cast<std::size_t>(k)].obstacle != 0)
+    if (k == 0 || topology.lies_flat(k - 1) || topology.touches_flat(k) ||
+        state.joints[static_cast<std::size_t>(k)].obstacle != 0)
       continue;
     const ArcRecord& before = state.arcs[static_cast<std::size_t>(k - 1)];
     sum += before.n(2, before.n.cols() - 1) - arc.n(2, 0);

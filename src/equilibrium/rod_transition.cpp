@@ -180,7 +180,9 @@ std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const 
   constexpr int most_together = 5;
   const double unit = guess.problem->rod().unit_length;
   Entry exact = guess;
-  const bool vanishes = (event.kind == Kind::length && !event.redrawn && !becomes_touch) ||
+  // What vanishes may have another arc open in its place, whose length then says where.
+  const bool opens = !next.opened.empty() && next.topology.couplings().empty();
+  const bool vanishes = (event.kind == Kind::length && !event.redrawn && !becomes_touch && !opens) ||
                         (event.kind == Kind::curvature && next.opened.empty());
   // Where strands meet the force of the new touch says better than their distance between samples.
   const bool meets = event.kind == Kind::approach && !event.redrawn;

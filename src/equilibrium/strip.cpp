@@ -25,6 +25,9 @@ Successor Strip::successor() const {
   std::vector<chain::Seat> contacts = on;  // the ends, and the section where a half chain begins, lie on none
   if (!mid_touch && !(half && parts.front().kind == Stretch::line)) contacts.front() = {};
   contacts.back() = {};
+  for (int j = 1; j < static_cast<int>(parts.size()); ++j)
+    if (is_line(j - 1) && !is_line(j))
+      contacts[j].flat = -1;  // of a line its beginning says that it lies flat
   if (std::any_of(contacts.begin(), contacts.end(),
                   [](const chain::Seat& seat) { return seat != chain::Seat{}; }))
     out.topology.on = contacts;

@@ -34,6 +34,7 @@ std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& st
   const double begin = strip.s[i], end = strip.s[i + 1], length = end - begin;
   Strip open = strip;  // the whole line lifts at once
   open.parts[i].kind = Stretch::gap;
+  open.on[i + 1].flat = strip.on[i].flat;  // its edges are touches now, on the plate, too
   if (line.p.maxCoeff() - line.p.minCoeff() < 1e-6) return {open.successor()};
   const double low = event.from, high = event.to, width = high - low;
   const bool at_start = low <= begin, at_end = high >= end;
@@ -72,6 +73,53 @@ std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& st
 bool vanishes(const Strip& strip, int link) {
   constexpr double vanished = 3.0 * least_length;
   return strip.is_line(link) && std::abs(strip.s[link + 1] - strip.s[link]) < vanished;
+}
+
+/// Where the edge of a line and a touch of the plate meet, beyond which the rod lies flat in the plate, the line itself reaches the
+/// plate and lies on both from there on; and the other way round. Where a touch of the cylinder and one of the plate meet they
+/// change places: the rod lies flat from the plate's touch on, and the cylinder's is one of both. Nothing for other arcs.
+std::optional<Successor> flat_line_begins_or_ends(int link, const Profile& profile, const Strip& strip) {
+  const int last = static_cast<int>(strip.parts.size()) - 1;
+  if (strip.half || link < 1 || link >= last) return std::nullopt;
+  const auto is_plate = [&](int joint) {
+    const int obstacle = strip.on[joint].obstacle;
+    return strip.on[joint].strand == 0 && obstacle > 0 && profile.obstacles[obstacle].curvature() == 0.0 &&
+           profile.obstacles[0].slips();
+  };
+  constexpr double length = 0.05;
+  Strip next = strip;
+  next.parts[link].fresh = true;
+  for (const bool rightward : {true, false}) {  // the way from the line to the end of the rod
+    const int line = rightward ? link - 1 : link + 1, tail = rightward ? link + 1 : link - 1;
+    const int inner = rightward ? link : link + 1, outer = rightward ? link + 1 : link;
+    if (strip.parts[tail].kind != Stretch::tail) continue;
+    if (!strip.is_line(line) && !strip.is_line(link)) {
+      const bool flat = strip.on[outer].flat >= 0;
+      if (flat ? !is_plate(inner) : !is_plate(outer) || strip.on[inner] != chain::Seat{}) continue;
+      next.on[inner] = chain::Seat{strip.on[outer].obstacle};
+      next.on[outer] = chain::Seat{strip.on[inner].obstacle};
+      if (!flat) next.on[outer].flat = strip.on[outer].obstacle;
+      next.s[outer] = strip.s[inner] + (rightward ? length : -length) * profile.unit_length;
+      return next.successor();
+    }
+    if (!strip.is_line(line)) continue;
+    next.s[outer] = strip.s[inner] + (rightward ? length : -length) * profile.unit_length;
+    const int beginning = strip.on[line].obstacle;
+    if (strip.parts[link].kind == Stretch::gap && is_plate(outer)) {
+      const int plate = strip.on[outer].obstacle;
+      next.parts[link].kind = Stretch::line;
+      next.on[link] = next.on[link + 1] = chain::Seat{beginning};
+      next.on[link].flat = plate;
+      return next.successor();
+    }
+    if (strip.is_line(link) && strip.on[link].flat >= 0 && strip.on[line].flat < 0) {
+      next.parts[link].kind = Stretch::gap;
+      next.on[inner] = chain::Seat{beginning};
+      next.on[outer] = chain::Seat{strip.on[link].flat};
+      return next.successor();
+    }
+  }
+  return std::nullopt;
 }
 
 std::vector<Successor> after_length(int link, const Strip& strip) {
@@ -154,9 +202,14 @@ std::vector<Successor> after_curvature(const ContactEvent& event, const Strip& s
     out.push_back(closed.successor());
   }
   // The touch flattens to a line, or where a line would pull (under low tension) comes apart into two.
-  for (const Stretch between : {Stretch::line, Stretch::gap})
-    for (const double length : {0.05, 0.02, 0.1})
-      out.push_back(widened(strip, j, between, length * profile.unit_length));
+  const auto widen = [&](std::initializer_list<double> lengths) {
+    for (const Stretch between : {Stretch::line, Stretch::gap})
+      for (const double length : lengths)
+        out.push_back(widened(strip, j, between, length * profile.unit_length));
+  };
+  widen({0.05, 0.02, 0.1});
+  // Where nearly all of the force stays at one end a line grows slowly: a longer one lies far from the event.
+  widen({5e-3, 2e-3});
   return out;
 }
 
@@ -167,7 +220,11 @@ std::vector<Successor> after_graze(const ContactEvent& event, Strip strip) {
     strip.on[0] = {event.obstacle};
     return {strip.successor()};
   }
-  strip.cut(i, event.s, {event.obstacle});
+  chain::Seat seat{event.obstacle};
+  for (const int joint : {i, i + 1})  // a rod that lies flat in a plate stays there
+    if (!strip.is_line(joint - 1) && !strip.is_line(joint))
+      seat.flat = std::max(seat.flat, strip.on[joint].flat);
+  strip.cut(i, event.s, seat);
   return {strip.successor()};
 }
 
@@ -240,6 +297,7 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
       return after_pressure(event, strip, profile.pieces[event.place]);
     case Kind::length:
       if (profile.pieces[event.place].stretch == Stretch::tail) return {end_of_rod(strip)};
+      if (const auto flat = flat_line_begins_or_ends(event.place, profile, strip)) return {*flat};
       if (event.redrawn && laid_anew_at(chain::Strands(topology), event.place))
         return {with_touches(skeleton_of(strip).strip.successor(), profile, topology)};
       if (const auto fewer = line_with_fewer_touches(profile, topology, event.place, strip)) return {*fewer};
@@ -342,7 +400,8 @@ Successor mirrored(const Successor& next, bool right_changed, int links) {
 void join_lines(Successor& next) {
   std::vector<Stretch>& stretches = next.topology.stretches;
   for (std::size_t i = 0; i + 1 < stretches.size();) {
-    const bool apart = next.topology.seat(static_cast<int>(i) + 1).strand != 0;  // a strand presses between
+    const int joint = static_cast<int>(i) + 1;  // a strand presses between, or the plate
+    const bool apart = next.topology.seat(joint).strand != 0 || next.topology.lifts_off(joint);
     if (stretches[i] != Stretch::line || stretches[i + 1] != Stretch::line || apart) {
       ++i;
       continue;

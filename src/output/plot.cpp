@@ -38,15 +38,24 @@ std::vector<std::string> interesting_points(const Run& run, std::size_t most) {
   return names;
 }
 
+/// Many contacts by their beginning and end, so that the title fits the picture.
+std::string abridged(const std::string& topology) {
+  constexpr std::size_t longest = 90, part = 40;
+  if (topology.size() <= longest) return topology;
+  const std::size_t head = topology.rfind(' ', part), tail = topology.find(' ', topology.size() - part);
+  return topology.substr(0, head) + " …" + topology.substr(tail);
+}
+
 std::string rod_title(const Run& run, const std::string& name) {
+  const std::string topology = abridged(run.points.get(name).topology);
   for (const SpecialPoint& point : run.special_points) {
     if (point.label != name) continue;
     std::string type = point.type == "branch_point" ? "branch point"
                        : point.type == "contact"    ? "contact event"
                                                     : point.type;
-    return run.info.scene + ", " + type + " " + name + ": " + run.points.get(name).topology;
+    return run.info.scene + ", " + type + " " + name + ": " + topology;
   }
-  return run.info.scene + ", point " + name + ": " + run.points.get(name).topology;
+  return run.info.scene + ", point " + name + ": " + topology;
 }
 
 }  // namespace

@@ -100,7 +100,8 @@ std::string panel_commands(const DiagramData& data, std::size_t column, const st
   const Axis& y = data.panels[column];
   const std::string using_x_y = " using 1:" + std::to_string(column + 2);
   std::string text = "  set xlabel " + gnuplot_text(data.x.title, false) + " offset 0,0.3\n";
-  text += "  set ylabel " + gnuplot_text(y.title, false) + " offset 0.8,0\n";
+  const bool wide_tics = y.log && y.high >= 100.0;
+  text += "  set ylabel " + gnuplot_text(y.title, false) + (wide_tics ? "\n" : " offset 0.8,0\n");
   text += data.x.log ? "  set log x\n" : "  unset log x\n";
   text += y.log ? "  set log y\n" : "  unset log y\n";
   text += "  set xrange " + range_text(data.x) + "\n  set yrange " + range_text(y) + "\n";

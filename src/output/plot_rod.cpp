@@ -64,7 +64,7 @@ std::string heading(const equilibrium::Solution& solution, const std::string& ti
   text += std::string("  set palette ") + pressure_palette + "\n";
   text += "  set cbrange [0:" + format_number(p_max > 0 ? p_max : 1.0) + "]\n";
   if (!(p_max > 0)) return text + "  unset colorbox\n";
-  return text + "  set cblabel 'pressure p  [EI/ρ³]' offset -0.6,0\n  set cbtics font ',8'\n" +
+  return text + "  set cblabel 'pressure p  [EI/ρ³]' offset 0.2,0\n  set cbtics font ',8'\n" +
          "  set colorbox user origin screen 0.89, screen 0.47 size screen 0.018, screen 0.38\n";
 }
 

@@ -153,10 +153,6 @@ void check_sliding(const Document& document, const Scene& scene) {
            "built yet");
   if (!scene.rod.isotropic_straight())
     refuse("cylinder.sliding", "needs an isotropic, naturally straight rod");
-  for (const char* end : {"ends.kind", "ends.left", "ends.right"})
-    if (scene.ends.left_kind() != EndKind::moment_free || scene.ends.right_kind() != EndKind::moment_free)
-      forbid(document, end,
-             "must be \"moment_free\" with cylinder.sliding = \"up\": other ends are not built yet");
 }
 
 void check_continuation(const Document& document, const Scene& scene, bool restart) {

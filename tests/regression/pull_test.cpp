@@ -54,10 +54,11 @@ BOOST_AUTO_TEST_CASE(a_pull_says_which_steady_state_it_selects) {
 }
 
 BOOST_AUTO_TEST_CASE(a_state_that_solve_does_not_list_is_found_from_the_plateau) {
+  // An arch that hangs from the plate on both sides.
   const TemporaryFolder folder;
-  const Outcome outcome = run_program(
-      pulling({"--set", "load.tension=0.4", "--mesh", "0.2", "--mesh", "0.14", "--json", "--out", "p"}),
-      folder.path());
+  const Outcome outcome = run_program(pulling({"--set", "load.tension=0.4", "--set", "load.angle=3 pi",
+                                               "--mesh", "0.2", "--mesh", "0.14", "--json", "--out", "p"}),
+                                      folder.path());
   BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
   const auto json = nlohmann::json::parse(outcome.out);
   BOOST_TEST(json["selected_by"] == "plateau");

@@ -135,6 +135,9 @@ class Chain {
   double travelled(const VectorXd& x) const {
     return gauges_.travel == Travel::none ? 0.0 : x(slide_at_ + 1);
   }
+  void set_travelled(VectorXd& x, double value) const {
+    if (gauges_.travel != Travel::none) x(slide_at_ + 1) = value;
+  }
   /// Length of a link: the difference of its ends' arclengths, without loss of digits where they are close.
   double length(const VectorXd& x, const Loads& loads, int link) const;
   /// Row of the gauge, and place of λ in an increment.

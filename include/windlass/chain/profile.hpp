@@ -50,6 +50,7 @@ struct Profile {
   rod::Material material;
   double radius = 0.0;       ///< of the rod, 0: its strands pass through each other [ρ]
   double unit_length = 1.0;  ///< see RodKind
+  double travelled = 0.0;    ///< τ or ω on a cylinder that slips along the rod, see Travel
 
   double begin() const { return pieces.front().s(0); }
   double end() const { return pieces.back().s(pieces.back().s.size() - 1); }

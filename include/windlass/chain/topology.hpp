@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -30,7 +31,7 @@ struct Seat {
   int line = 0;
   /// Of a place inside a line contact: the obstacle that stops it there, too (a plate); −1: none.
   int stop = -1;
-  /// The line that begins here lies on this obstacle, a plate, too; −1: on its own alone.
+  /// The line that begins here, or the touch that is here, lies on this obstacle, a plate, too; −1: on its own alone.
   int flat = -1;
   bool middle = false;  ///< of a stop: at s = 0, see contact::spatial::Stopped
   /// Of a line between strands where another contact presses on one of them: that strand's place is that of the touch before
@@ -59,8 +60,22 @@ struct Topology {
     return link >= 0 && link < static_cast<int>(stretches.size()) && stretches[link] == Stretch::line &&
            seat(link).flat >= 0;
   }
-  /// What a contact joint is pushed by: where a line is stopped, what stops it.
-  int pushed_by(int joint) const { return seat(joint).stop >= 0 ? seat(joint).stop : seat(joint).obstacle; }
+  /// Does the rod touch its obstacle and a plate at once at this joint, free on both sides?
+  bool touches_flat(int joint) const {
+    return joint > 0 && joint < static_cast<int>(stretches.size()) && seat(joint).flat >= 0 &&
+           stretches[joint - 1] != Stretch::line && stretches[joint] != Stretch::line;
+  }
+  /// Does a line leave a plate at this joint, and go on along its own obstacle?
+  bool lifts_off(int joint) const {
+    return joint > 0 && joint < static_cast<int>(stretches.size()) && stretches[joint - 1] == Stretch::line &&
+           stretches[joint] == Stretch::line && lies_flat(joint - 1) != lies_flat(joint);
+  }
+  /// What a contact joint is pushed by: where a line is stopped, or lifts off, the plate.
+  int pushed_by(int joint) const {
+    if (seat(joint).stop >= 0) return seat(joint).stop;
+    if (lifts_off(joint)) return std::max(seat(joint - 1).flat, seat(joint).flat);
+    return seat(joint).obstacle;
+  }
   std::vector<Coupling> couplings() const;
   /// Does a link begin or end where strands touch?
   bool beside_strand(int link) const { return seat(link).strand != 0 || seat(link + 1).strand != 0; }

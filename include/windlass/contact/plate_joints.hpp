@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "windlass/contact/spatial_joints.hpp"
 
 /// Joints of a rod that a cylinder and a plate z = const hold at once.
@@ -52,6 +54,38 @@ class FlatEdge final : public VectorJoint {
   Eigen::Vector4d on_edge(const double* w) const { return {w[0], height_, 0.0, w[1]}; }
   Side line_;
   Edge edge_;
+  double height_;
+};
+
+/// A touch of the cylinder where the rod touches a plate, too: w = (a, ψ, χ), the place round the axis, the inclination in the
+/// plate and the turn about the tangent, 3 degrees of freedom, arclength unknown. A plate that pushes where the rod goes on has it
+/// tangent to itself, so that frames here turn about its normal and the rod's tangent only. Equations 4: force round the
+/// axis, moments about e_z and the tangent, and tangency to the cylinder. The plate takes the force along the axis, the friction's
+/// mu f among it. About the cylinder's normal it gives no moment: there is none where the rod lies flat beside the touch.
+class FlatTouch final : public VectorJoint {
+ public:
+  FlatTouch(SurfacePointer cylinder, SurfacePointer plate);
+  JointKind kind() const override { return JointKind::touch; }
+  int tangent() const override { return 3; }
+  bool locates() const override { return true; }
+  std::vector<int> out_of_plane() const override { return {2}; }
+  int spin_coordinate() const override { return 2; }
+  int places() const override { return 1; }
+  double slide(const double* w) const override;
+  Attachment attach(Side side, const double* w, const Loads& loads) const override;
+  void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
+                 SmallMatrix& out) const override;
+  Location location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const override;
+  void adopt(const Place& place, double* w) const override;
+  const obstacle::Surface* surface() const override { return touch_.surface(); }
+  Eigen::Vector2d on_surface(const double* w) const override { return {w[0], height_}; }
+
+ private:
+  std::array<double, 6> as_touch(const double* w) const;
+  /// Degrees of freedom of the touch by those here.
+  SmallMatrix by_own(const double* w) const;
+  Touch touch_;
+  rod::Quaternion base_;  ///< of the plate
   double height_;
 };
 

@@ -192,6 +192,7 @@ BOOST_AUTO_TEST_CASE(attachments_of_spatial_joints) {
   check("edge on a wall", wall_edge(Side::left), {Side::left, Side::right});
   check("section of a line on a wall", SurfaceSection(wall()), {Side::left, Side::right});
   check("stop on a line", Stopped(obstacle::unit_cylinder(), plate(), false), {Side::left, Side::right});
+  check("touch on a plate", FlatTouch(obstacle::unit_cylinder(), plate()), {Side::left, Side::right});
   for (const Side flat : {Side::left, Side::right}) {
     check("edge on a plate", FlatEdge(flat, 1.2, obstacle::unit_cylinder(), plate()),
           {Side::left, Side::right});
@@ -209,6 +210,7 @@ BOOST_AUTO_TEST_CASE(location_conditions) {
   check_location("spatial touch", contact::spatial::Touch(), 3);
   using namespace contact::spatial;
   check_location("stop on a line", Stopped(obstacle::unit_cylinder(), plate(), false), 2);
+  check_location("touch on a plate", FlatTouch(obstacle::unit_cylinder(), plate()), 3);
   check_location("edge on a plate", FlatEdge(Side::left, 1.2, obstacle::unit_cylinder(), plate()), 3);
   check_location("lift off a plate", LiftOff(Side::left, obstacle::unit_cylinder(), plate()), 2);
   check_location("spatial edge", contact::spatial::Edge(Side::left, 1.2), 3);

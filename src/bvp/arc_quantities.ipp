@@ -1,0 +1,146 @@
+// What is read off a solved arc, and its move to another mesh: part of collocation_arc.ipp.
+#pragma once
+
+#include "windlass/bvp/collocation_arc.hpp"
+
+namespace windlass::bvp {
+
+template <class Density>
+Eigen::VectorXd CollocationArc<Density>::metric(const ArcPoint& at) const {
+  const Eigen::VectorXd lumped = table_.value.transpose() * table_.weight;
+  Eigen::VectorXd mass = Eigen::VectorXd::Zero(interior_tangent() + E);
+  for (int e = 0; e < elements(); ++e)
+    for (int i = 0; i <= stages(); ++i)
+      for (int j = 0; j < D; ++j)
+        mass(place(e, column(i) + j)) +=
+            Density::metric_scale * lumped(i) * at.length * (mesh_[e + 1] - mesh_[e]);
+  return mass;
+}
+
+template <class Density>
+ArcSamples CollocationArc<Density>::sample(const ArcPoint& at) const {
+  const int m = stages(), count = elements() * m + 1;
+  ArcSamples out{Eigen::VectorXd(count),
+                 Eigen::MatrixXd(A, count),
+                 Eigen::MatrixXd(D, count),
+                 Eigen::MatrixXd::Zero(P, count),
+                 {}};
+  out.slope.resize(D, count);
+  Force base = Force::Zero();
+  Nodes q, g;
+  Ambient value, slope;
+  Eigen::Matrix<double, 2 * A, 1> gz;
+  Force d;
+  for (int e = 0; e < elements(); ++e) {
+    const double h = mesh_[e + 1] - mesh_[e];
+    gather(at, e, q);
+    Force g_n = Force::Zero();
+    double g_length = 0.0;
+    element_gradient(q, at, e, g, g_n, g_length);
+    Eigen::MatrixXd directions(P, m), loads(A, m);
+    for (int j = 0; j < m; ++j) {
+      evaluate(table_, q, j, 1.0 / (h * at.length), value, slope);
+      if constexpr (A == D || stretches) {
+        first(value, slope, force_there(at, e, j), at, gz, d);
+        loads.col(j) = gz.template head<A>();
+      } else {
+        d = density_.direction(value);
+      }
+      directions.col(j) = d;
+    }
+    const Eigen::MatrixXd integral = h * at.length * table_.integral.transpose();
+    const Eigen::MatrixXd moved = directions * integral;
+    // The momentum follows from what the element gains of it, more exactly than from the polynomial's slope.
+    Eigen::MatrixXd gained;
+    if constexpr (A == D) gained = loads * integral;
+    for (int i = 0; i <= m; ++i) {
+      const int k = e * m + i;
+      out.sigma(k) = mesh_[e] + h * table_.lobatto(i);
+      out.q.col(k) = q.col(i);
+      out.displacement.col(k) = base + moved.col(i);
+      slope = q * table_.end_slope.row(i).transpose() / (h * at.length);
+      if constexpr (A == D) {
+        out.momentum.col(k) = gained.col(i) - g.col(0);
+      } else {
+        first(q.col(i), slope, Eigen::Map<const Force>(at.n), at, gz, d);  // ∂L/∂q' of a free rod knows no n
+        out.momentum.col(k) = density_.basis(q.col(i)).transpose() * gz.template tail<A>();
+      }
+      out.slope.col(k) = density_.basis(q.col(i)).transpose() * slope;
+    }
+    out.momentum.col(e * m) = -density_.basis(q.col(0)).transpose() * g.col(0);
+    out.momentum.col(e * m + m) = density_.basis(q.col(m)).transpose() * g.col(m);
+    base -= g_n;  // ∂S/∂n of the element = −∫ d ds
+    out.displacement.col(e * m + m) = base;
+    out.nodes.push_back(e * m);
+  }
+  out.nodes.push_back(count - 1);
+  return out;
+}
+
+template <class Density>
+double CollocationArc<Density>::energy(const ArcPoint& at) const {
+  double sum = 0.0;
+  Nodes q;
+  Ambient value, slope;
+  for (int e = 0; e < elements(); ++e) {
+    const double h = mesh_[e + 1] - mesh_[e];
+    gather(at, e, q);
+    for (int g = 0; g < stages(); ++g) {
+      evaluate(table_, q, g, 1.0 / (h * at.length), value, slope);
+      double density = 0.0;
+      if constexpr (stretches)
+        density = density_.elastic(value, slope, force_there(at, e, g), at.compliance);
+      else
+        density = density_.elastic(value, slope);
+      sum += h * at.length * table_.weight(g) * density;
+    }
+  }
+  return sum;
+}
+
+template <class Density>
+std::vector<double> CollocationArc<Density>::resolution(const ArcPoint& at) const {
+  std::vector<double> sizes;
+  Nodes q;
+  for (int e = 0; e < elements(); ++e) {
+    gather(at, e, q);
+    sizes.push_back((q * table_.highest.transpose()).cwiseAbs().maxCoeff());
+  }
+  return sizes;
+}
+
+template <class Density>
+std::unique_ptr<Arc> CollocationArc<Density>::remeshed(const std::vector<double>& mesh, int stages) const {
+  return make_collocation_arc<Density>(density_, mesh, stages);
+}
+
+template <class Density>
+Eigen::VectorXd CollocationArc<Density>::transfer(const ArcPoint& at, const Arc& target) const {
+  const std::vector<double> mesh = target.mesh();
+  const int fine = target.stages();
+  const Eigen::VectorXd points = CollocationTable::get(fine).lobatto;
+  Eigen::VectorXd out(target.interior_ambient());
+  Nodes q;
+  int e = 0, gathered = -1;
+  const bool same =
+      mesh == mesh_;  // the error estimate: only the stages differ, so that every element is alike
+  Eigen::MatrixXd basis(stages() + 1, fine);
+  if (same)
+    for (int i = 0; i < fine; ++i) basis.col(i) = lagrange_basis(table_.lobatto, points(i));
+  for (int k = 1; k <= target.interior_nodes(); ++k) {
+    const int t = k / fine;
+    const double sigma = mesh[t] + (mesh[t + 1] - mesh[t]) * points(k % fine);
+    if (same)
+      e = t;
+    else
+      while (e + 1 < elements() && sigma > mesh_[e + 1]) ++e;
+    if (e != gathered) gather(at, gathered = e, q);
+    const double x = (sigma - mesh_[e]) / (mesh_[e + 1] - mesh_[e]);
+    const Ambient value =
+        same ? Ambient(q * basis.col(k % fine)) : Ambient(q * lagrange_basis(table_.lobatto, x));
+    out.template segment<A>((k - 1) * A) = density_.normalised(value);
+  }
+  return out;
+}
+
+}  // namespace windlass::bvp
