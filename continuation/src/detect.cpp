@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "event_by_name.hpp"
@@ -88,6 +89,31 @@ void sharpen_fold(Segment& segment, Located& fold) {
                 left.parameter + segment.options().parameter_scale * left.length * left.length, rounding});
 }
 
+namespace {
+
+/// Of the functions that change sign up to a sample the one whose zero is nearest on the chord, as it is at the base; nullptr: none.
+const EventFunction* earliest(const std::vector<EventFunction>& at_base, const Sample& top,
+                              const EventSigns& signs, double zero,
+                              const std::function<bool(const EventFunction&)>& left_out) {
+  const EventFunction* first = nullptr;
+  double first_s = top.s;
+  for (const EventFunction& event : top.events) {
+    const EventFunction* base = find(at_base, event.name);
+    if (!base || left_out(event)) continue;
+    const int sign = sign_of(signs, event.name);
+    const double f_base = sign * base->value, f_top = sign * event.value;
+    if (f_top >= -zero) continue;
+    const double estimate = f_base <= 0.0 ? 0.0 : top.s * f_base / (f_base - f_top);
+    if (!first || estimate < first_s) {
+      first = base;
+      first_s = estimate;
+    }
+  }
+  return first;
+}
+
+}  // namespace
+
 std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, const EventSigns& signs) {
   const double zero = segment.options().event_zero;
   const std::vector<EventFunction>& at_base = segment.base().events;
@@ -100,21 +126,9 @@ std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, co
                        [&](const Located& other) { return other.event == event.name; });
   };
   for (int round = 0; round < 20; ++round) {
-    const EventFunction* first = nullptr;
-    double first_s = top->s;
-    for (const EventFunction& event : top->events) {
-      const EventFunction* base = find(at_base, event.name);
-      if (!base || (found && event.name == found->event)) continue;
-      if (is_unsolved(event)) continue;
-      const int sign = sign_of(signs, event.name);
-      const double f_base = sign * base->value, f_top = sign * event.value;
-      if (f_top >= -zero) continue;
-      const double estimate = f_base <= 0.0 ? 0.0 : top->s * f_base / (f_base - f_top);
-      if (!first || estimate < first_s) {
-        first = base;
-        first_s = estimate;
-      }
-    }
+    const EventFunction* first = earliest(at_base, *top, signs, zero, [&](const EventFunction& event) {
+      return (found && event.name == found->event) || is_unsolved(event);
+    });
     if (!first) {
       // Nothing comes before one that is over by then.
       for (const Located& other : unsolved) {
