@@ -11,6 +11,8 @@ namespace {
 
 constexpr int width = 4;  ///< numbers that are worked on at once
 using Pack = Eigen::Array<double, width, 1>;
+/// Eigen's own alignment of the columns: 16 bytes for SSE, 32 for AVX.
+constexpr int aligned = std::min(EIGEN_DEFAULT_ALIGN_BYTES, 32);
 
 /// f and g in one column, padded as those of the factors are.
 struct Padded {
@@ -22,10 +24,10 @@ struct Padded {
     std::copy_n(g, kept, values.begin() + eliminated);
     std::fill_n(values.begin() + eliminated + kept, width - 1, 0.0);
   }
-  auto pack(int i) { return Eigen::Map<Pack, Eigen::Aligned32>(&values[i]); }
+  auto pack(int i) { return Eigen::Map<Pack, aligned>(&values[i]); }
 };
 
-auto pack(const double* column, int i) { return Eigen::Map<const Pack, Eigen::Aligned32>(column + i); }
+auto pack(const double* column, int i) { return Eigen::Map<const Pack, aligned>(column + i); }
 
 }  // namespace
 

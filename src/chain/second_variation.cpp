@@ -118,6 +118,7 @@ Chain::DraggedVariation Chain::dragged_variation(const VectorXd& x, const Loads&
   Eigen::Index count = 0;
   for (Eigen::Index& at : place)
     if (at >= 0) at = count++;
+  residual(x, loads);  // what joints take of the lines beside them is of this state
   Sparse metric(size_, size_);
   for (int i = 0; i < link_count(); ++i) {
     const Local l = local(Purpose::equilibrium, numbering_, x, loads, i);

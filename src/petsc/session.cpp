@@ -42,12 +42,14 @@ PetscErrorCode record_error(MPI_Comm, int, const char* function, const char*, Pe
 }
 
 /// Open MPI looks for networks, other processes and a resource manager before it starts, and hwloc for caches, buses
-/// and (through an X server) screens: 0.4 s that a process started by hand need not wait for. A user's own
-/// setting wins.
+/// and (through an X server) screens: 0.4 s that a process started by hand need not wait for. Its folder for messages between
+/// processes has one name for all that are started by hand: one that ends may take it away while another starts. A user's
+/// own setting wins.
 void shorten_mpi_start() {
   if (std::getenv("OMPI_COMM_WORLD_SIZE") || std::getenv("PMIX_RANK")) return;  // under mpirun
   const int keep = 0;
   setenv("OMPI_MCA_ess_singleton_isolated", "1", keep);
+  setenv("OMPI_MCA_orte_create_session_dirs", "0", keep);
   setenv("OMPI_MCA_btl", "self", keep);
   setenv("OMPI_MCA_pml", "ob1", keep);
   setenv("OMPI_MCA_coll", "self,basic,libnbc", keep);
