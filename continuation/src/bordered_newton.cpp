@@ -99,7 +99,7 @@ bool StoppingRule::last(double length, double residual, double state_size, bool 
   const double left_unseen = taken_ > 0 && length > 0.0 ? length * contraction(length) : 0.0;
   const bool quick = fresh || stagnant || left_unseen <= unseen * tolerance;
   settling_ = length <= tolerance && !quick && !done;
-  const bool small = (length <= tolerance && quick) || done;
+  const bool small = (length <= tolerance || done) && !settling_;
   // Where corrections are this small twice and F no longer falls, what is left of it is the rounding of its large terms
   // (those of an arc about to vanish, say).
   const bool rounded = taken_ > 0 && previous_ <= tolerance && length <= 0.1 * tolerance && !falls;

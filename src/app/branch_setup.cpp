@@ -54,7 +54,8 @@ continuation::Options options_of(const scene::Scene& scene) {
   options.step_max = c.step_max > 0.0 ? c.step_max : usual_step_max;
   options.step = std::min(options.step, options.step_max);
   options.max_points = c.max_points;
-  // Newton converges quadratically: the error left after an increment of 1e-9 is rounding.
+  // What a correction of 1e-9 leaves is rounding: by the state's own factorisation at once, by an old one as the stopping rule
+  // sees to.
   options.newton_tolerance = 1e-9;
   return options;
 }

@@ -118,7 +118,7 @@ Chain::DraggedVariation Chain::dragged_variation(const VectorXd& x, const Loads&
   Eigen::Index count = 0;
   for (Eigen::Index& at : place)
     if (at >= 0) at = count++;
-  residual(x, loads);  // what joints take of the lines beside them is of this state
+  const Sparse matrix = jacobian(x, loads);  // first: joints take their drag from the gradients it leaves
   Sparse metric(size_, size_);
   for (int i = 0; i < link_count(); ++i) {
     const Local l = local(Purpose::equilibrium, numbering_, x, loads, i);
@@ -143,7 +143,7 @@ Chain::DraggedVariation Chain::dragged_variation(const VectorXd& x, const Loads&
       held.emplace_back(place[slide_row()], place[numbering.location[j]],
                         -share * joints_[j]->slide(coordinates(x, j)));
   }
-  return {kept(jacobian(x, loads), held), kept(metric, {})};
+  return {kept(matrix, held), kept(metric, {})};
 }
 
 VectorXd Chain::as_increment(const VectorXd& variation, Parity parity) const {

@@ -29,6 +29,17 @@ nlohmann::json solved(const std::vector<std::string>& settings) {
   return nlohmann::json::parse(outcome.out);
 }
 
+/// A branch in `run`, all of whose points pass their certificates; its special points.
+nlohmann::json followed(const std::string& run, const std::vector<std::string>& settings) {
+  std::vector<std::string> command = sliding("continue", settings);
+  command.insert(command.end(), {"--out", run, "--quiet"});
+  const TemporaryFolder folder;
+  BOOST_REQUIRE(run_program(command, folder.path()).status == 0);
+  const Outcome verified = run_program({"verify", run}, folder.path());
+  BOOST_TEST(verified.status == 0, verified.out);
+  return nlohmann::json::parse(std::ifstream(run + "/special_points.json"));
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(sliding_cylinder)
@@ -63,14 +74,9 @@ BOOST_AUTO_TEST_CASE(the_flat_coil_goes_on_through_one_half) {
   const TemporaryFolder folder;
   for (const auto& [from, to, height] : {std::array{"10", "0.3", "0"}, std::array{"0.3", "2", "0.4"}}) {
     const std::string run = (folder / to).string();
-    std::vector<std::string> command =
-        sliding("continue", {std::string("continuation.from=") + from, std::string("continuation.to=") + to,
-                             std::string("plate.height=") + height});
-    command.insert(command.end(), {"--out", run, "--quiet"});
-    BOOST_REQUIRE(run_program(command, folder.path()).status == 0);
-    const Outcome verified = run_program({"verify", run}, folder.path());
-    BOOST_TEST(verified.status == 0, verified.out);
-    const auto points = nlohmann::json::parse(std::ifstream(run + "/special_points.json"));
+    const auto points =
+        followed(run, {std::string("continuation.from=") + from, std::string("continuation.to=") + to,
+                       std::string("plate.height=") + height});
     BOOST_REQUIRE(points.size() == 1u);
     // The touches' line begins at 1/2 for endless tails; of this length it is off by exp(−2√T L_tail) = 1e-8.
     BOOST_TEST(std::abs(points[0]["parameter"].get<double>() - 0.5) < 1e-7);
@@ -90,15 +96,10 @@ BOOST_AUTO_TEST_CASE(helices_are_dragged_up_to_a_fold) {
   for (const auto& [travel, fold] : {std::pair{"blocked", 0.01352934}, {"free", 0.01371664}}) {
     const TemporaryFolder folder;
     const std::string run = (folder / "run").string();
-    std::vector<std::string> command =
-        sliding("continue", {"rod.length=14.283185307179586", "load.tension=1.01", "model.kind=kirchhoff",
-                             std::string("ends.travel=") + travel, "continuation.parameter=cylinder.friction",
-                             "continuation.from=0.005", "continuation.to=0.03"});
-    command.insert(command.end(), {"--out", run, "--quiet"});
-    BOOST_REQUIRE(run_program(command, folder.path()).status == 0);
-    const Outcome verified = run_program({"verify", run}, folder.path());
-    BOOST_TEST(verified.status == 0, verified.out);
-    const auto points = nlohmann::json::parse(std::ifstream(run + "/special_points.json"));
+    const auto points =
+        followed(run, {"rod.length=14.283185307179586", "load.tension=1.01", "model.kind=kirchhoff",
+                       std::string("ends.travel=") + travel, "continuation.parameter=cylinder.friction",
+                       "continuation.from=0.005", "continuation.to=0.03"});
     BOOST_REQUIRE(points.size() == 1u);
     BOOST_TEST(points[0]["type"] == "fold");
     BOOST_TEST(std::abs(points[0]["parameter"].get<double>() - fold) < 1e-6);
@@ -138,14 +139,9 @@ BOOST_AUTO_TEST_CASE(edges_and_touches_go_on_past_the_touch_of_the_plate) {
   // Back from its fold the helix winds down on the plate; the certificate integrates lines on cylinder and plate, too.
   const TemporaryFolder folder;
   const std::string run = (folder / "run").string();
-  std::vector<std::string> command = sliding(
-      "continue", {"load.tension=0.6", "model.kind=kirchhoff", "continuation.parameter=cylinder.friction",
-                   "continuation.from=0.01", "continuation.to=0.3"});
-  command.insert(command.end(), {"--out", run, "--quiet"});
-  BOOST_REQUIRE(run_program(command, folder.path()).status == 0);
-  const Outcome verified = run_program({"verify", run}, folder.path());
-  BOOST_TEST(verified.status == 0, verified.out);
-  const auto points = nlohmann::json::parse(std::ifstream(run + "/special_points.json"));
+  const auto points =
+      followed(run, {"load.tension=0.6", "model.kind=kirchhoff", "continuation.parameter=cylinder.friction",
+                     "continuation.from=0.01", "continuation.to=0.3"});
   BOOST_REQUIRE(points.size() == 2u);
   BOOST_TEST(points[0]["type"] == "fold");
   BOOST_TEST(points[1]["after"] == "tail line touch:2 line tail");
@@ -166,14 +162,9 @@ BOOST_AUTO_TEST_CASE(ends_may_be_clamped) {
   // A helix between clamps is twisted: certified, and not the one with free ends.
   const TemporaryFolder folder;
   const std::string run = (folder / "run").string();
-  std::vector<std::string> command =
-      sliding("continue", {"rod.length=22.283185307179586", "load.tension=0.57", "model.kind=kirchhoff",
-                           "ends.kind=clamped", "continuation.parameter=cylinder.friction",
-                           "continuation.from=0.005", "continuation.to=0.05"});
-  command.insert(command.end(), {"--out", run, "--quiet"});
-  BOOST_REQUIRE(run_program(command, folder.path()).status == 0);
-  const Outcome verified = run_program({"verify", run}, folder.path());
-  BOOST_TEST(verified.status == 0, verified.out);
+  followed(run,
+           {"rod.length=22.283185307179586", "load.tension=0.57", "model.kind=kirchhoff", "ends.kind=clamped",
+            "continuation.parameter=cylinder.friction", "continuation.from=0.005", "continuation.to=0.05"});
   // A pull's discrete rod turns at its ends.
   const Outcome pull = run_program(sliding("pull", {"ends.kind=clamped"}), folder.path());
   BOOST_TEST(pull.status == 1);

@@ -1,0 +1,356 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "candidates.hpp"
+#include "line_touches.hpp"
+#include "strand_line_events.hpp"
+#include "strand_successors.hpp"
+#include "strip.hpp"
+#include "windlass/equilibrium/contact_events.hpp"
+
+namespace windlass::equilibrium {
+
+using chain::Piece;
+using chain::Profile;
+using chain::Stretch;
+using chain::Topology;
+using Kind = ContactEvent::Kind;
+
+namespace {
+
+/// Lengths to try for a gap that opens where the pressure is negative over `width`. A beam held off by the pressure
+/// p₀ + a x² needs √5 times that width for g = g' = g'' = 0 at its ends, one held at a touch 5/3 of it; at the event
+/// itself the width is nothing, and the load gives way to any length: by its square inside, in proportion at an edge.
+std::vector<double> gap_lengths(double width, double factor, double usual, double most) {
+  std::vector<double> out;
+  for (const double part : {1.0, 0.5, 2.0, 3.0})
+    out.push_back(std::min(most, part * (width > 1e-6 ? factor * width : usual)));
+  return out;
+}
+
+std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& strip, const Piece& line) {
+  std::vector<Successor> out;
+  const int i = event.place;
+  const double begin = strip.s[i], end = strip.s[i + 1], length = end - begin;
+  Strip open = strip;  // the whole line lifts at once
+  open.parts[i].kind = Stretch::gap;
+  open.on[i + 1].flat = strip.on[i].flat;  // its edges are touches now, on the plate, too
+  if (line.p.maxCoeff() - line.p.minCoeff() < 1e-6) return {open.successor()};
+  const double low = event.from, high = event.to, width = high - low;
+  const bool at_start = low <= begin, at_end = high >= end;
+  const bool at_mid = at_start && strip.starts_at_mid(i) && !strip.mid_touch;
+  const auto cut = [&](Strip part, int link, double from, double to) {  // a gap [from, to] inside a link
+    const bool before = from > part.s[link], after = to < part.s[link + 1];
+    if (after) part.split(link, to, Stretch::gap, Stretch::line);
+    if (before) part.split(link, from, Stretch::line, Stretch::gap);
+    part.parts[link + before].fresh = true;
+    return part;
+  };
+  if (at_mid) {
+    for (const double size : gap_lengths(width, gap_inside, 0.3, 1.8 * length))
+      out.push_back(cut(strip, i, begin, begin + 0.5 * size).successor());
+  } else if (at_start ||
+             at_end) {  // the edge's point force stays: a touch, with a gap between it and the line
+    for (const double size : gap_lengths(width, gap_beside_touch, 0.05, 0.9 * length))
+      out.push_back(
+          (at_end ? cut(strip, i, end - size, end) : cut(strip, i, begin, begin + size)).successor());
+  } else {
+    const double middle = 0.5 * (low + high), room = 1.8 * std::min(middle - begin, end - middle);
+    // Close to an edge no line is left beyond the gap, or next to nothing, only the edge's point force.
+    const double half = 0.5 * gap_inside * width, close = gap_reaches_edge * half;
+    for (const double part : {1.0, 1.5}) {
+      if (end - middle < close) out.push_back(cut(strip, i, middle - part * half, end).successor());
+      if (middle - begin < close) out.push_back(cut(strip, i, begin, middle + part * half).successor());
+    }
+    for (const double size : gap_lengths(width, gap_inside, 0.3, room))
+      out.push_back(cut(strip, i, middle - 0.5 * size, middle + 0.5 * size).successor());
+  }
+  out.push_back(open.successor());
+  return out;
+}
+
+/// A line that has this length or less at an event shrinks to nothing there.
+bool vanishes(const Strip& strip, int link) {
+  constexpr double vanished = 3.0 * least_length;
+  return strip.is_line(link) && std::abs(strip.s[link + 1] - strip.s[link]) < vanished;
+}
+
+/// Where the edge of a line and a touch of the plate meet, beyond which the rod lies flat in the plate, the line itself reaches the
+/// plate and lies on both from there on; and the other way round. Where a touch of the cylinder and one of the plate meet they
+/// change places: the rod lies flat from the plate's touch on, and the cylinder's is one of both. Nothing for other arcs.
+std::optional<Successor> flat_line_begins_or_ends(int link, const Profile& profile, const Strip& strip) {
+  const int last = static_cast<int>(strip.parts.size()) - 1;
+  if (strip.half || link < 1 || link >= last) return std::nullopt;
+  const auto is_plate = [&](int joint) {
+    const int obstacle = strip.on[joint].obstacle;
+    return strip.on[joint].strand == 0 && obstacle > 0 && profile.obstacles[obstacle].curvature() == 0.0 &&
+           profile.obstacles[0].slips();
+  };
+  constexpr double length = 0.05;
+  Strip next = strip;
+  next.parts[link].fresh = true;
+  for (const bool rightward : {true, false}) {  // the way from the line to the end of the rod
+    const int line = rightward ? link - 1 : link + 1, tail = rightward ? link + 1 : link - 1;
+    const int inner = rightward ? link : link + 1, outer = rightward ? link + 1 : link;
+    if (strip.parts[tail].kind != Stretch::tail) continue;
+    if (!strip.is_line(line) && !strip.is_line(link)) {
+      const bool flat = strip.on[outer].flat >= 0;
+      if (flat ? !is_plate(inner) : !is_plate(outer) || strip.on[inner] != chain::Seat{}) continue;
+      next.on[inner] = chain::Seat{strip.on[outer].obstacle};
+      next.on[outer] = chain::Seat{strip.on[inner].obstacle};
+      if (!flat) next.on[outer].flat = strip.on[outer].obstacle;
+      next.s[outer] = strip.s[inner] + (rightward ? length : -length) * profile.unit_length;
+      return next.successor();
+    }
+    if (!strip.is_line(line)) continue;
+    next.s[outer] = strip.s[inner] + (rightward ? length : -length) * profile.unit_length;
+    const int beginning = strip.on[line].obstacle;
+    if (strip.parts[link].kind == Stretch::gap && is_plate(outer)) {
+      const int plate = strip.on[outer].obstacle;
+      next.parts[link].kind = Stretch::line;
+      next.on[link] = next.on[link + 1] = chain::Seat{beginning};
+      next.on[link].flat = plate;
+      return next.successor();
+    }
+    if (strip.is_line(link) && strip.on[link].flat >= 0 && strip.on[line].flat < 0) {
+      next.parts[link].kind = Stretch::gap;
+      next.on[inner] = chain::Seat{beginning};
+      next.on[outer] = chain::Seat{strip.on[link].flat};
+      return next.successor();
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<Successor> after_length(int link, const Strip& strip) {
+  std::vector<Successor> out;
+  if (const auto next = after_length_beside_strand(link, strip)) return {*next};
+  // In long helices lines shrink to nothing together, at distances that differ by less than rounding.
+  Strip together = strip;
+  int count = 0;
+  for (int i = static_cast<int>(strip.parts.size()); i-- > 0;)
+    if (i == link || vanishes(strip, i)) count += together.collapse(i);
+  if (count > 1) out.push_back(together.successor());
+  Strip alone = strip;
+  if (alone.collapse(link)) out.push_back(alone.successor());
+  return out;
+}
+
+std::vector<Successor> after_force(const ContactEvent& event, Strip strip, const Profile& profile,
+                                   const Topology& topology) {
+  const int j = event.place;
+  if (strip.mid_touch && j == 0) {
+    strip.mid_touch = false;
+    return {strip.successor()};
+  }
+  const Stretch before = strip.parts[j - 1].kind, after = strip.parts[j].kind;
+  if (before == Stretch::line || after == Stretch::line) return {};
+  constexpr double lifted =
+      1e-6;  // with the last force the rod leaves the cylinder, from mirror images at once
+  strip.merge(j - 1, j, joined(before, after));
+  Successor next = strip.successor();
+  next.nothing_left |= chain::total_contact_force(profile, topology) < lifted;
+  return {next};
+}
+
+/// A touch replaced by a stretch of a given length.
+Successor widened(const Strip& strip, int j, Stretch between, double length) {
+  Strip wide = strip;
+  const double begin = strip.s[j] - 0.5 * length, end = strip.s[j] + 0.5 * length;
+  if (strip.mid_touch && j == 0) {
+    wide.mid_touch = false;
+    wide.split(0, end, between, strip.parts[0].kind);
+    wide.parts[0].fresh = true;
+  } else {
+    wide.split(j, end, between, strip.parts[j].kind);
+    wide.s[j] = begin;
+    wide.parts[j].fresh = true;
+  }
+  return wide.successor();
+}
+
+/// Has a gap bowed off its plane, by A (1 − cos ks) with hardly more curvature A k² than the touches at its ends give way at?
+bool slightly_bowed(const Profile& profile, int gap, double height) {
+  const double k2 = profile.pieces[gap].n.col(0).norm();
+  for (const chain::Contact& c : profile.contacts)
+    if ((c.joint == gap || c.joint == gap + 1) && c.coupling < 0 &&
+        profile.obstacles[c.obstacle].curvature() == 0.0)
+      return height * k2 < 4.0 * least_curvature * c.force / std::sqrt(k2);
+  return false;
+}
+
+std::vector<Successor> after_curvature(const ContactEvent& event, const Strip& strip,
+                                       const Profile& profile) {
+  std::vector<Successor> out;
+  const int j = event.place;
+  // A neighbouring gap that lies on the cylinder all along closes as a whole.
+  for (const int i : {j - 1, j}) {
+    if (i < 0 || strip.parts[i].kind != Stretch::gap) continue;
+    double widest = 0.0;
+    for (Eigen::Index k = 0; k < profile.pieces[i].s.size(); ++k)
+      widest =
+          std::max(widest, std::abs(profile.obstacles[strip.on[j].obstacle].gap(profile.pieces[i].r.col(k))));
+    if (widest > 1e-5 && !slightly_bowed(profile, i, widest)) continue;
+    // Two touches that meet become one. Their curvature vanishes with the gap, whichever is seen first.
+    constexpr double shortest = 0.05;
+    Strip met = strip;
+    if (!strip.is_line(i - 1) && !strip.is_line(i + 1) && strip.s[i + 1] - strip.s[i] < shortest &&
+        met.collapse(i))
+      out.push_back(met.successor());
+    Strip closed = strip;
+    closed.merge(strip.is_line(i - 1) ? i - 1 : i, strip.is_line(i + 1) ? i + 1 : i, Stretch::line);
+    out.push_back(closed.successor());
+  }
+  // The touch flattens to a line, or where a line would pull (under low tension) comes apart into two.
+  const auto widen = [&](std::initializer_list<double> lengths) {
+    for (const Stretch between : {Stretch::line, Stretch::gap})
+      for (const double length : lengths)
+        out.push_back(widened(strip, j, between, length * profile.unit_length));
+  };
+  widen({0.05, 0.02, 0.1});
+  // Where nearly all of the force stays at one end a line grows slowly: a longer one lies far from the event.
+  widen({5e-3, 2e-3});
+  return out;
+}
+
+std::vector<Successor> after_graze(const ContactEvent& event, Strip strip) {
+  const int i = event.place;
+  if (!strip.mid_touch && strip.starts_at_mid(i) && std::abs(event.s) < 1e-9) {
+    strip.mid_touch = true;
+    strip.on[0] = {event.obstacle};
+    return {strip.successor()};
+  }
+  chain::Seat seat{event.obstacle};
+  for (const int joint : {i, i + 1})  // a rod that lies flat in a plate stays there
+    if (!strip.is_line(joint - 1) && !strip.is_line(joint))
+      seat.flat = std::max(seat.flat, strip.on[joint].flat);
+  strip.cut(i, event.s, seat);
+  return {strip.successor()};
+}
+
+/// What touches at the rod's end need not be tangent there: another mechanics.
+Successor end_of_rod(const Strip& strip) {
+  Successor next = strip.successor();
+  next.at_end = true;
+  return next;
+}
+
+/// A line that has buckled off its obstacle: its edges are touches now.
+Successor bowed(int link, Strip strip) {
+  strip.parts[link].kind = Stretch::gap;
+  Successor next = strip.successor();
+  next.bowed = link;
+  return next;
+}
+
+/// What follows where an arc has no length left, or a touch of strands comes apart. Joints that locate themselves meet and part; the
+/// touches inside lines follow them.
+std::vector<Successor> after_skeleton(const ContactEvent& event, const Profile& profile,
+                                      const Topology& topology, const Strip& strip) {
+  const chain::Strands strands(topology);
+  const auto follows = [&](int joint) { return strands.laid(joint) || !strands.inside_line(joint); };
+  const auto laid = [&](int joint) { return strands.laid(joint); };
+  const Skeleton skeleton = skeleton_of(strip);
+  ContactEvent here = event;
+  const bool length = event.kind == Kind::length;
+  const bool alone = length && ((!laid(event.place) && !laid(event.place + 1)) || !follows(event.place) ||
+                                !follows(event.place + 1));
+  if (alone || skeleton.strip.s.size() == strip.s.size()) {
+    if (!length) return strands_split(event, strip, profile);
+    std::vector<Successor> out = after_length(event.place, strip),
+                           longer = line_passes_edge(event.place, profile, topology, strip);
+    out.insert(out.begin(), longer.begin(), longer.end());
+    return out;
+  }
+  here.place = (length ? skeleton.link : skeleton.joint)[event.place];
+  std::vector<Successor> out =
+      length ? after_length(here.place, skeleton.strip) : strands_split(here, skeleton.strip, profile);
+  for (Successor& next : out) next = with_touches(next, profile, topology);
+  return out;
+}
+
+/// Are the joints about a place where they were, but for what is little next to the distance between them?
+bool alike(const Successor& next, const Strip& strip, double s) {
+  constexpr double about = 0.05, little = 0.1;
+  const auto near = [&](const std::vector<double>& all) {
+    std::vector<double> out;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(out),
+                 [&](double at) { return std::abs(at - s) < about; });
+    return out;
+  };
+  const std::vector<double> before = near(strip.s), after = near(next.s);
+  if (before.size() != after.size()) return false;
+  for (std::size_t k = 1; k + 1 < before.size(); ++k)
+    if (std::abs(after[k] - before[k]) > little * (before[k + 1] - before[k - 1])) return false;
+  return true;
+}
+
+}  // namespace
+
+std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profile, const Topology& topology,
+                                 const std::vector<double>& s) {
+  const Strip strip(topology, s);
+  switch (event.kind) {
+    case Kind::pressure:
+    case Kind::suction:
+      // With a line that shrinks to nothing its pressure (phi = pi) or its edges' forces may change sign.
+      if (vanishes(strip, event.place)) return after_length(event.place, strip);
+      return after_pressure(event, strip, profile.pieces[event.place]);
+    case Kind::length:
+      if (profile.pieces[event.place].stretch == Stretch::tail) return {end_of_rod(strip)};
+      if (const auto flat = flat_line_begins_or_ends(event.place, profile, strip)) return {*flat};
+      if (event.redrawn && laid_anew_at(chain::Strands(topology), event.place))
+        return {with_touches(skeleton_of(strip).strip.successor(), profile, topology)};
+      if (const auto fewer = line_with_fewer_touches(profile, topology, event.place, strip)) return {*fewer};
+      return after_skeleton(event, profile, topology, strip);
+    case Kind::force:
+      for (const int link : {event.place - 1, event.place})
+        if (vanishes(strip, link)) return after_length(link, strip);
+      if (const auto opened = line_opens(event.place, topology, strip)) {
+        std::vector<Successor> out = {*opened}, parted = strands_part(event.place, strip);
+        out.insert(out.end(), parted.begin(), parted.end());
+        if (event.redrawn) {  // laid unevenly touches pull, too
+          const Successor anew = with_touches(skeleton_of(strip).strip.successor(), profile, topology);
+          if (!alike(anew, strip, event.s)) out.insert(out.begin(), anew);
+        }
+        return out;
+      }
+      if (strip.on[event.place].strand != 0) return strands_part(event.place, strip);
+      return after_force(event, strip, profile, topology);
+    case Kind::curvature:
+      if (const auto line = line_with_next(event.place, profile, topology, strip)) return {*line};
+      if (strip.on[event.place].strand != 0) {
+        std::vector<Successor> out = after_skeleton(event, profile, topology, strip);
+        if (const auto joined = line_joins(event.place, profile, topology, strip))
+          out.insert(out.begin(), *joined);
+        if (const auto line = line_of_three(event.place, profile, topology, strip)) out.push_back(*line);
+        return out;
+      }
+      return after_curvature(event, strip, profile);
+    case Kind::graze:
+      return after_graze(event, strip);
+    case Kind::buckling:
+      return {bowed(event.place, strip)};
+    case Kind::reaction:
+      return strand_lifts(event.place, strip);
+    case Kind::approach:
+      if (event.redrawn) {
+        return {*line_with_more_touches(event, profile, topology, strip),
+                *line_filled(event, profile, topology, strip)};
+      }
+      if (auto closed = line_closes(event, topology, strip)) {
+        closed = with_touches(skeleton_of(Strip(*closed)).strip.successor(), profile, topology);
+        // Beside a line hardly anything parts it from what comes next; between two touches a third is one by itself at first.
+        const bool beside_line = next_to_line(event, topology);
+        std::vector<Successor> out = strands_meet(event, strip);
+        out.insert(beside_line ? out.begin() : out.end(), *closed);
+        if (const auto longer = line_extends(event, topology, strip)) out.insert(out.begin(), *longer);
+        return out;
+      }
+      return strands_meet(event, strip);
+  }
+  return {};
+}
+
+}  // namespace windlass::equilibrium
