@@ -55,9 +55,20 @@ void BorderedSystem::add(const Vector& delta) {
   if (parameter_free()) it_.p[borders_.parameter] += delta[n_];
 }
 
+namespace {
+
+/// A correction no shorter than this part of the last one: rounding, or a factorisation too old for what is left.
+constexpr double no_longer_shrinks = 0.2;
+/// Of what is allowed: F that is no rounding.
+constexpr double little = 0.03;
+
+}  // namespace
+
 bool StoppingRule::slow(double length) const {
   const double tolerance = options_.newton_tolerance, theta = contraction(length);
-  if (length <= tolerance) return false;
+  const double allowed = options_.residual_tolerance * options_.residual_scale;
+  if (length <= tolerance)
+    return settling_ && theta > no_longer_shrinks && previous_residual_ > little * allowed;
   return length * std::pow(theta, 3) > tolerance ||
          (taken_ > 1 && theta > 0.1 && length * theta > tolerance);  // they hardly converge
 }
@@ -89,16 +100,18 @@ bool StoppingRule::last(double length, double residual, double state_size, bool 
     if (guess_ == Guess::near && contraction(length) > 1.0 && length > 10.0 * rounding && !exhausted &&
         residual > falling * previous_residual_)
       throw std::runtime_error("Newton's corrections grow");
-    stagnant = contraction(length) > 0.2;
+    stagnant = contraction(length) > no_longer_shrinks;
   }
   const bool done = guess_ == Guess::far ? over(length, exhausted && !falls)
                                          : stagnant && (exhausted || length <= rounding);
   // Corrections by an old factorisation shrink by a factor only. What the last one leaves is unseen in the metric, and more in
   // places that the metric gives little weight (a short arc).
+  // Where they no longer shrink and F is no rounding, the old factorisation hardly knows some direction: that of the state does.
   constexpr double unseen = 1e-3;
   const double left_unseen = taken_ > 0 && length > 0.0 ? length * contraction(length) : 0.0;
+  const bool old = !fresh && stagnant && !exhausted && residual > little * allowed;
   const bool quick = fresh || stagnant || left_unseen <= unseen * tolerance;
-  settling_ = length <= tolerance && !quick && !done;
+  settling_ = length <= tolerance && (old || (!quick && !done));
   const bool small = (length <= tolerance || done) && !settling_;
   // Where corrections are this small twice and F no longer falls, what is left of it is the rounding of its large terms
   // (those of an arc about to vanish, say).
@@ -116,8 +129,8 @@ bool StoppingRule::last(double length, double residual, double state_size, bool 
 // From a far guess every correction has factors of its own: where one no longer shrinks it is rounding, magnified by what J
 // nearly lacks. (On the way to a nearly singular state corrections halve, and F falls to a quarter.)
 bool StoppingRule::over(double length, bool all_rounding) const {
-  constexpr double no_longer_shrinks = 0.3, least_visible = 1e-9;
-  return taken_ > 0 && contraction(length) > no_longer_shrinks && (all_rounding || length <= least_visible);
+  constexpr double hardly_shrinks = 0.3, least_visible = 1e-9;
+  return taken_ > 0 && contraction(length) > hardly_shrinks && (all_rounding || length <= least_visible);
 }
 
 namespace {
