@@ -180,6 +180,7 @@ void Walker::pass(Point event, std::size_t which, const std::string& name, int d
     event.p = transition->p;
     event.tangent = state_.tangent;
     event.precision = transition->precision;
+    if (!transition->vanishes.empty()) event.event = transition->vanishes;
   }
   if (const auto& located = transition->located) {
     event.problem = located->problem;

@@ -49,8 +49,9 @@ void Strip::erase(int i, int bound) {
 void Strip::merge(int first, int last, Stretch kind) {
   for (int i = last; i > first; --i) erase(i, i);
   parts[first].kind = kind;
-  if (kind == Stretch::line && starts_at_mid(first) && !mid_touch)
-    on[0] = on[1];  // a section of it is there now
+  if (kind != Stretch::line || !starts_at_mid(first)) return;
+  if (!mid_touch) on[0] = on[1];  // a section of it is there now
+  mid_touch = mid_touch && on[0].strand != 0;  // a touch of the line's own obstacle is part of it
 }
 
 void Strip::split(int i, double at, Stretch left, Stretch right, std::optional<chain::Seat> contact) {
