@@ -224,13 +224,18 @@ std::optional<Successor> line_closes(const ContactEvent& event, const Topology& 
   return strip.successor();
 }
 
-std::vector<Successor> line_passes_edge(int link, const chain::Profile& profile, const Topology& topology,
-                                        const Strip& strip) {
+std::vector<Successor> line_passes(int link, bool by_strand, const chain::Profile& profile,
+                                   const Topology& topology, const Strip& strip) {
   const Strands strands(topology);
+  const auto other_line = [&](int joint, int end) {
+    return strip.on[joint].line == 0 || std::abs(strip.on[joint].line) != std::abs(strip.on[end].line);
+  };
   const auto ends_line = [&](int joint) { return strip.on[joint].line != 0 && !strands.inside_line(joint); };
   std::vector<Successor> out;
   for (const auto& [end, edge] : {std::pair(link, link + 1), std::pair(link + 1, link)}) {
-    if (!ends_line(end) || strip.on[edge].strand != 0) continue;
+    const bool pressed = strip.on[edge].strand != 0;
+    if (!ends_line(end) || pressed != by_strand || partner(strip, edge) == end || !other_line(edge, end))
+      continue;
     const StrandLine& line = strands.lines()[strands.line_of(end)];
     const int other = partner(strip, end);
     const double way = edge < end ? -1.0 : 1.0;
