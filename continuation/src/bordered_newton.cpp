@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -19,6 +20,14 @@ const Vector& BorderedSystem::defect() {
   defect_.head(n_) = -f;
   defect_.tail(size() - n_) = borders_.g - borders_.c.transpose() * it_.u - borders_.d * it_.y;
   return defect_;
+}
+
+double BorderedSystem::noise() {
+  Vector beside = it_.x;
+  for (Eigen::Index i = 0; i < beside.size(); ++i)
+    beside[i] *= 1.0 + (i % 2 == 0 ? 1.0 : -1.0) * std::numeric_limits<double>::epsilon();
+  const Vector f = problem_.residual(beside, it_.p);
+  return problem_.residual_norm(f - problem_.residual(it_.x, it_.p));  // last at the iterate, as before
 }
 
 void BorderedSystem::factor() {
@@ -82,11 +91,11 @@ bool StoppingRule::last(double length, double residual, double state_size, bool 
   constexpr double rounded_residual = 1e-3, visible = 1e-6;
   constexpr double still_falls = 0.3;
   const bool falls = taken_ > 0 && residual <= still_falls * previous_residual_;
-  // Some sums round to more; they are known by not falling any more while corrections are hardly visible.
-  constexpr double larger_sums = 1e-2, hardly_visible = 1e-8;
-  const bool stuck = taken_ > 0 && !falls && residual <= larger_sums * allowed && length <= hardly_visible;
-  const bool exhausted = fresh && ((residual <= rounded_residual * allowed && length <= visible) ||
-                                   (guess_ == Guess::near && stuck));
+  // Some sums round to more.
+  constexpr double larger_sums = 1e-2;
+  const bool stuck = taken_ > 0 && !falls && residual <= larger_sums * allowed && guess_ == Guess::near;
+  const bool exhausted =
+      fresh && length <= visible && (residual <= rounded_residual * allowed || (stuck && is_noise(residual)));
   bool stagnant = false;
   // A far guess may be improved by corrections of any size at first.
   constexpr int at_first = 5;
@@ -126,6 +135,11 @@ bool StoppingRule::last(double length, double residual, double state_size, bool 
   return small && (rounded || exhausted || (residual <= allowed && after <= left * allowed));
 }
 
+bool StoppingRule::is_noise(double residual) const {
+  constexpr double several = 4.0;  // roundings come together
+  return noise_ && residual <= several * noise_();
+}
+
 // From a far guess every correction has factors of its own: where one no longer shrinks it is rounding, magnified by what J
 // nearly lacks. (On the way to a nearly singular state corrections halve, and F falls to a quarter.)
 bool StoppingRule::over(double length, bool all_rounding) const {
@@ -136,7 +150,7 @@ bool StoppingRule::over(double length, bool all_rounding) const {
 namespace {
 
 void iterate(BorderedSystem& system, const Options& options, CorrectorReport& report) {
-  StoppingRule rule(options);
+  StoppingRule rule(options, StoppingRule::Guess::near, [&] { return system.noise(); });
   double first = 0.0, first_residual = 0.0;
   for (int k = 0;; ++k) {
     const Vector& defect = system.defect();
