@@ -67,6 +67,23 @@ BOOST_AUTO_TEST_CASE(branch_goes_through_events_with_a_change_of_size) {
   BOOST_TEST(of_type(points, PointType::branch_point).empty());
 }
 
+// p = 1 − x² comes back behind its turn as the mirror image of what is before it: |x| is alike at both ends of the step.
+BOOST_AUTO_TEST_CASE(an_event_between_mirror_images_is_not_jumped_over) {
+  auto problem = scalar([](double x, const Vector& p) { return p[0] - 1.0 + x * x; });
+  problem->events_of = [](const Vector& x, const Vector&) {
+    return std::vector<EventFunction>{{"distance", std::abs(x[0]) - 0.05}};
+  };
+  problem->transition_of = [](std::size_t, const Vector&, const Vector&) -> std::optional<Transition> {
+    return Transition{nullptr, {}, "apart", "touch", {}};
+  };
+  Options options;
+  options.step = 0.4;
+  Walker walker(problem, vector({-0.2}), vector({0.96}), options);
+  const auto points = walk(walker);
+  BOOST_TEST((walker.end().kind == End::Kind::event));
+  BOOST_TEST(std::abs(points.back().x[0] + 0.05) < 1e-9);
+}
+
 BOOST_AUTO_TEST_CASE(several_events_in_one_step_come_in_order) {
   auto problem = scalar([](double x, const Vector& p) { return x - p[0]; });
   problem->events_of = [](const Vector& x, const Vector&) {
