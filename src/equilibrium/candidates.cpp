@@ -270,6 +270,16 @@ std::vector<Successor> after_skeleton(const ContactEvent& event, const Profile& 
   return out;
 }
 
+/// The touches of lines laid anew, a line with the own image open about its middle where that is why.
+std::vector<Successor> laid_anew(const LaidAnew& here, const Profile& profile, const Topology& topology,
+                                 const Strip& strip) {
+  std::vector<Successor> out;
+  if (here.middle >= 0)
+    out = line_opens_about(here.middle, here.begin + here.end - here.middle, profile, topology, strip);
+  out.push_back(with_touches(skeleton_of(strip).strip.successor(), profile, topology));
+  return out;
+}
+
 /// Are the joints about a place where they were, but for what is little next to the distance between them?
 bool alike(const Successor& next, const Strip& strip, double s) {
   constexpr double about = 0.05, little = 0.1;
@@ -300,8 +310,8 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
     case Kind::length:
       if (profile.pieces[event.place].stretch == Stretch::tail) return {end_of_rod(strip)};
       if (const auto flat = flat_line_begins_or_ends(event.place, profile, strip)) return {*flat};
-      if (event.redrawn && laid_anew_at(chain::Strands(topology), event.place))
-        return {with_touches(skeleton_of(strip).strip.successor(), profile, topology)};
+      if (const auto anew = laid_anew_at(chain::Strands(topology), event.place); anew && event.redrawn)
+        return laid_anew(*anew, profile, topology, strip);
       if (const auto fewer = line_with_fewer_touches(profile, topology, event.place, strip)) return {*fewer};
       return after_skeleton(event, profile, topology, strip);
     case Kind::force:
