@@ -280,6 +280,13 @@ std::vector<Successor> laid_anew(const LaidAnew& here, const Profile& profile, c
   return out;
 }
 
+/// Do strands meet where a line of theirs is open about its middle?
+bool opens_line(const ContactEvent& event, const Topology& topology) {
+  const chain::Strands strands(topology);
+  const chain::Strands::Facing* facing = strands.facing(event.place, event.other, event.mirrored);
+  return facing && strands.opened_middle(*facing);
+}
+
 /// Are the joints about a place where they were, but for what is little next to the distance between them?
 bool alike(const Successor& next, const Strip& strip, double s) {
   constexpr double about = 0.05, little = 0.1;
@@ -345,7 +352,7 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
     case Kind::reaction:
       return strand_lifts(event.place, strip);
     case Kind::approach:
-      if (event.redrawn) {
+      if (event.redrawn && !opens_line(event, topology)) {
         return {*line_with_more_touches(event, profile, topology, strip),
                 *line_filled(event, profile, topology, strip)};
       }

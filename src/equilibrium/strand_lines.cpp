@@ -168,7 +168,8 @@ std::optional<Successor> line_with_next(int joint, const chain::Profile& profile
   };
   for (const int link : {joint - 1, joint})
     for (const Strands::Facing& f : strands.facing(std::max(link, 0))) {
-      if (f.line >= 0 || !overlaps(f.begin) || !overlaps(f.end)) continue;
+      const bool joins = strands.line_of(f.begin) >= 0 || strands.line_of(f.end) >= 0;  // see line_joins()
+      if (f.line >= 0 || joins || !overlaps(f.begin) || !overlaps(f.end)) continue;
       mark_line(strip, {f.begin, f.end}, {f.other_begin, f.other_end}, f.begin == f.other_begin,
                 new_strand(strip));
       return strip.successor();
