@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "windlass/chain/topology.hpp"
 
@@ -50,17 +51,17 @@ int Strands::others(int begin, int end) const {
 bool Strands::divides_first(const StrandLine& line) const {
   const auto count = [&](const std::vector<int>& strand) {
     const auto [low, high] = std::minmax(strand.front(), strand.back());
-    int sum = others(low, high);
-    for (const StrandLine& other : lines_) {  // those that run along it
+    int lines = 0;
+    for (const StrandLine& other : lines_) {  // those that run along it: they share its places
       if (&other == &line || other.own_image() || other.on_obstacles) continue;
       for (const std::vector<int>* side : {&other.first, &other.second}) {
         const auto [begin, end] = std::minmax(side->front(), side->back());
-        sum += begin < high && end > low;
+        lines += begin < high && end > low;
       }
     }
-    return sum;
+    return std::pair(lines, others(low, high));
   };
-  const int of_first = count(line.first), of_second = count(line.second);
+  const std::pair of_first = count(line.first), of_second = count(line.second);
   return of_first > of_second || (of_first == of_second && line.first.front() < line.second.front());
 }
 

@@ -268,13 +268,7 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
     if (getenv("WDBG")) {
       fprintf(stderr, "DBG candidate %s joints %zu held %zu opened %zu found %d", "", next.s.size(), next.held.size(), next.opened.size(), bool(found));
       if (found) fprintf(stderr, " p %.10f", found->p(0));
-      Entry trial = entry;
-      int used = -9;
-      tried([&] { used = trial.problem->polish(trial.x, trial.p, 18); return true; });
-      fprintf(stderr, " polish %d\n", used);
-      if (used >= 0)
-        for (const ContactEvent& e : contact_events(trial.problem->profile(trial.x, trial.p), trial.problem->topology()))
-          if (e.value < 0.0) fprintf(stderr, "    violates %s %.4g s %.5f redrawn %d\n", e.name().c_str(), e.value, e.s, e.redrawn);
+      fprintf(stderr, "\n");
     }
     if (!found || (!event.redrawn && found->problem->topology() == topology_))
       continue;  // not where it came from
