@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -324,10 +322,6 @@ bool Walker::valid_direction(const std::shared_ptr<Problem>& problem, const Vect
           return !before || before->value >= -1e3 * options_.event_zero;
         });
     const bool valid = negative <= simultaneous;
-    if (getenv("WDBG")) {
-      fprintf(stderr, "DBG valid part %g p %.10f from %.10f negative %ld simultaneous %ld passed %s\n", part, sample->it.p(0), p(0), long(negative), long(simultaneous), passed.c_str());
-      for (const EventFunction& event : sample->events) if (event.value < 0.0) fprintf(stderr, "    %s %.3g\n", event.name.c_str(), event.value);
-    }
     if (valid) return true;
   }
   return false;

@@ -70,8 +70,14 @@ void Strands::find_laid() {
   for (const StrandLine& line : lines_) {
     const int links = line.links(), low = links / 2, high = links - low;
     const std::vector<int>&first = line.first, &second = line.second;
+    // Of a line with the own image first the half that more touches of other strands are on: each is to have one of the line's.
+    const auto on_half = [&](int begin, int end) {
+      int touches = 0;
+      for (int j = begin + 1; j < end; ++j) touches += !inside_line(j) && partner_[j] >= 0;
+      return std::pair(touches, others(begin, end));
+    };
     const bool by_first = line.own_image()
-                              ? others(first.front(), first[low]) >= others(first[high], first.back())
+                              ? on_half(first.front(), first[low]) >= on_half(first[high], first.back())
                               : divides_first(line);
     for (int i = 1; i < links; ++i) {
       if (line.own_image() && 2 * i >= links) break;

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "windlass/equilibrium/opening.hpp"
 
@@ -105,12 +103,7 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, i
     return in_place ? solve_in_place(*entry.problem, entry.x, entry.p)
                     : solve_at_length(*entry.problem, entry.x, entry.p, opened.front(), length);
   };
-  if (getenv("WDBG")) fprintf(stderr, "DBG opened settle p %.10f in_place %d length %.3g\n", entry.p(0), in_place, length_of(entry, opened.front()));
   if (!in_place && !solve()) return std::nullopt;
-  if (getenv("WDBG")) { fprintf(stderr, "DBG opened solve p %.10f length %.3g\n", entry.p(0), length_of(entry, opened.front()));
-    for (const ContactEvent& e : contact_events(entry.problem->profile(entry.x, entry.p), entry.problem->topology()))
-          if (e.value < 0.0) fprintf(stderr, "    violates %s %.4g s %.5f redrawn %d\n", e.name().c_str(), e.value, e.s, e.redrawn);
-  }
   // What is admissible is judged on a mesh that is fine enough: events that only a finer one shows would be passed unseen.
   if (const std::optional<Vector> finer = entry.problem->adapt_mesh(entry.x, entry.p)) {
     entry.x = *finer;
@@ -123,7 +116,6 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, i
   const std::vector<ContactEvent> events = contact_events(shape, topology);
   if (admissible(events)) {
     if (!as_long) adjust_length(entry, opened.front());
-    if (getenv("WDBG")) fprintf(stderr, "DBG opened adjusted p %.10f length %.3g\n", entry.p(0), length_of(entry, opened.front()));
     return entry;
   }
   const auto worst = std::min_element(events.begin(), events.end(),

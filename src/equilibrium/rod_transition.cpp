@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <optional>
 #include <vector>
 
@@ -236,11 +234,6 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
   const chain::Profile shape = profile(x, p);
   const ContactEvent event = contact_events(shape, topology_).at(which);
   std::optional<continuation::Transition> first;
-  if (getenv("WDBG")) {
-    fprintf(stderr, "DBG transition %s value %.3g s %.6f T %.9f\n", event.name().c_str(), event.value, event.s, p(0));
-    for (const ContactEvent& e : contact_events(shape, topology_))
-      if (std::abs(e.s - event.s) < 0.4 && std::abs(e.value) < 0.02) fprintf(stderr, "  %s %.4g s %.5f redrawn %d\n", e.name().c_str(), e.value, e.s, e.redrawn);
-  }
   for (const Successor& next : successors(event, shape, topology_, joint_places(x, p, shape))) {
     continuation::Transition transition;
     transition.before = topology_.text();
@@ -265,11 +258,6 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
     }
     const bool shrinks = event.kind == Kind::length && straight_line(*this, event.place) >= 0;
     std::optional<Entry> found = enter(entry, event, next, shrinks, transition.precision);
-    if (getenv("WDBG")) {
-      fprintf(stderr, "DBG candidate %s joints %zu held %zu opened %zu found %d", "", next.s.size(), next.held.size(), next.opened.size(), bool(found));
-      if (found) fprintf(stderr, " p %.10f", found->p(0));
-      fprintf(stderr, "\n");
-    }
     if (!found || (!event.redrawn && found->problem->topology() == topology_))
       continue;  // not where it came from
     if (!tried([&] { return found->problem->settle(found->x, found->p), true; })) continue;
