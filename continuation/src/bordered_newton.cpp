@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -19,6 +20,14 @@ const Vector& BorderedSystem::defect() {
   defect_.head(n_) = -f;
   defect_.tail(size() - n_) = borders_.g - borders_.c.transpose() * it_.u - borders_.d * it_.y;
   return defect_;
+}
+
+double BorderedSystem::noise() {
+  Vector beside = it_.x;
+  for (Eigen::Index i = 0; i < beside.size(); ++i)
+    beside[i] *= 1.0 + (i % 2 == 0 ? 1.0 : -1.0) * std::numeric_limits<double>::epsilon();
+  const Vector f = problem_.residual(beside, it_.p);
+  return problem_.residual_norm(f - problem_.residual(it_.x, it_.p));  // last at the iterate, as before
 }
 
 void BorderedSystem::factor() {
@@ -55,9 +64,20 @@ void BorderedSystem::add(const Vector& delta) {
   if (parameter_free()) it_.p[borders_.parameter] += delta[n_];
 }
 
+namespace {
+
+/// A correction no shorter than this part of the last one: rounding, or a factorisation too old for what is left.
+constexpr double no_longer_shrinks = 0.2;
+/// Of what is allowed: F that is no rounding.
+constexpr double little = 0.03;
+
+}  // namespace
+
 bool StoppingRule::slow(double length) const {
   const double tolerance = options_.newton_tolerance, theta = contraction(length);
-  if (length <= tolerance) return false;
+  const double allowed = options_.residual_tolerance * options_.residual_scale;
+  if (length <= tolerance)
+    return settling_ && theta > no_longer_shrinks && previous_residual_ > little * allowed;
   return length * std::pow(theta, 3) > tolerance ||
          (taken_ > 1 && theta > 0.1 && length * theta > tolerance);  // they hardly converge
 }
@@ -71,11 +91,11 @@ bool StoppingRule::last(double length, double residual, double state_size, bool 
   constexpr double rounded_residual = 1e-3, visible = 1e-6;
   constexpr double still_falls = 0.3;
   const bool falls = taken_ > 0 && residual <= still_falls * previous_residual_;
-  // Some sums round to more; they are known by not falling any more while corrections are hardly visible.
-  constexpr double larger_sums = 1e-2, hardly_visible = 1e-8;
-  const bool stuck = taken_ > 0 && !falls && residual <= larger_sums * allowed && length <= hardly_visible;
-  const bool exhausted = fresh && ((residual <= rounded_residual * allowed && length <= visible) ||
-                                   (guess_ == Guess::near && stuck));
+  // Some sums round to more.
+  constexpr double larger_sums = 1e-2;
+  const bool stuck = taken_ > 0 && !falls && residual <= larger_sums * allowed && guess_ == Guess::near;
+  const bool exhausted =
+      fresh && length <= visible && (residual <= rounded_residual * allowed || (stuck && is_noise(residual)));
   bool stagnant = false;
   // A far guess may be improved by corrections of any size at first.
   constexpr int at_first = 5;
@@ -89,16 +109,18 @@ bool StoppingRule::last(double length, double residual, double state_size, bool 
     if (guess_ == Guess::near && contraction(length) > 1.0 && length > 10.0 * rounding && !exhausted &&
         residual > falling * previous_residual_)
       throw std::runtime_error("Newton's corrections grow");
-    stagnant = contraction(length) > 0.2;
+    stagnant = contraction(length) > no_longer_shrinks;
   }
   const bool done = guess_ == Guess::far ? over(length, exhausted && !falls)
                                          : stagnant && (exhausted || length <= rounding);
   // Corrections by an old factorisation shrink by a factor only. What the last one leaves is unseen in the metric, and more in
   // places that the metric gives little weight (a short arc).
+  // Where they no longer shrink and F is no rounding, the old factorisation hardly knows some direction: that of the state does.
   constexpr double unseen = 1e-3;
   const double left_unseen = taken_ > 0 && length > 0.0 ? length * contraction(length) : 0.0;
+  const bool old = !fresh && stagnant && !exhausted && residual > little * allowed;
   const bool quick = fresh || stagnant || left_unseen <= unseen * tolerance;
-  settling_ = length <= tolerance && !quick && !done;
+  settling_ = length <= tolerance && (old || (!quick && !done));
   const bool small = (length <= tolerance || done) && !settling_;
   // Where corrections are this small twice and F no longer falls, what is left of it is the rounding of its large terms
   // (those of an arc about to vanish, say).
@@ -113,17 +135,22 @@ bool StoppingRule::last(double length, double residual, double state_size, bool 
   return small && (rounded || exhausted || (residual <= allowed && after <= left * allowed));
 }
 
+bool StoppingRule::is_noise(double residual) const {
+  constexpr double several = 4.0;  // roundings come together
+  return noise_ && residual <= several * noise_();
+}
+
 // From a far guess every correction has factors of its own: where one no longer shrinks it is rounding, magnified by what J
 // nearly lacks. (On the way to a nearly singular state corrections halve, and F falls to a quarter.)
 bool StoppingRule::over(double length, bool all_rounding) const {
-  constexpr double no_longer_shrinks = 0.3, least_visible = 1e-9;
-  return taken_ > 0 && contraction(length) > no_longer_shrinks && (all_rounding || length <= least_visible);
+  constexpr double hardly_shrinks = 0.3, least_visible = 1e-9;
+  return taken_ > 0 && contraction(length) > hardly_shrinks && (all_rounding || length <= least_visible);
 }
 
 namespace {
 
 void iterate(BorderedSystem& system, const Options& options, CorrectorReport& report) {
-  StoppingRule rule(options);
+  StoppingRule rule(options, StoppingRule::Guess::near, [&] { return system.noise(); });
   double first = 0.0, first_residual = 0.0;
   for (int k = 0;; ++k) {
     const Vector& defect = system.defect();

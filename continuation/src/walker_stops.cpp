@@ -46,10 +46,15 @@ std::vector<double> dips(const WalkState& before, const Sample& end) {
   return places;
 }
 
-// The first event up to `end`, those included that are over by then.
-std::optional<Located> first_event(Segment& segment, const Sample& end, const WalkState& before) {
+// The first event up to `end`, those included that are over by then. Behind a turn of the parameter may lie the mirror image of
+// what is before it, at a branch point: functions are alike there, and what they are in between they are at the turn.
+std::optional<Located> first_event(Segment& segment, const Sample& end, const WalkState& before,
+                                   const Located* turn) {
   std::optional<Located> event = locate_first_event(segment, end, before.signs);
-  for (const double s : dips(before, end)) {
+  std::vector<double> places = dips(before, end);
+  if (turn && turn->s < end.s)
+    places.insert(std::upper_bound(places.begin(), places.end(), turn->s), turn->s);
+  for (const double s : places) {
     if (event && s >= event->s) break;
     Sample* lowest = segment.at(s, false);
     if (!lowest) continue;
@@ -103,7 +108,7 @@ bool Walker::shorten(Segment& segment, Sample*& end, Located* turn, End& reason,
     }
   }
   segment.add_events(*end);
-  if (options_.detect_events) event = first_event(segment, *end, state_);
+  if (options_.detect_events) event = first_event(segment, *end, state_, turn);
   if (!event) return true;
   if (!event->note.empty()) return failure = "event " + event->event + ": " + event->note, false;
   if (event->s > 0.0) {

@@ -178,6 +178,36 @@ BOOST_AUTO_TEST_CASE(chord_corrections_go_on_below_what_the_metric_shows) {
   BOOST_TEST(fresh.last(9e-10, 1e-11, 1.0, true));
 }
 
+BOOST_AUTO_TEST_CASE(corrections_made_of_noise_are_over) {
+  Options options;
+  options.newton_tolerance = 1e-9;
+  options.residual_tolerance = 1e-8;
+  using Guess = StoppingRule::Guess;
+  // F is what rounding leaves of it, and nearly singular equations make 1e-7 of that.
+  StoppingRule noisy(options, Guess::near, [] { return 1e-11; });
+  BOOST_TEST(!noisy.last(1e-7, 3e-11, 1.0, true));
+  BOOST_TEST(noisy.last(1.2e-7, 2e-11, 1.0, true));
+  // Of an F that could still fall they are not.
+  StoppingRule growing(options, Guess::near, [] { return 1e-13; });
+  BOOST_TEST(!growing.last(1e-7, 3e-11, 1.0, true));
+  BOOST_CHECK_THROW(growing.last(1.2e-7, 2e-11, 1.0, true), std::runtime_error);
+}
+
+BOOST_AUTO_TEST_CASE(the_noise_of_a_system_is_what_rounding_makes_of_it) {
+  // F = a (x - 1) summed over terms of size a: some a ε.
+  const double a = 1e6;
+  AlgebraicProblem sums(1, [&](const Vector& x, const Vector& p) { return vector({a * x[0] - a * p[0]}); });
+  Borders none;
+  none.psi = none.c = Matrix::Zero(1, 0);
+  none.d = Matrix::Zero(0, 0);
+  none.g = Vector::Zero(0);
+  Iterate at{vector({1.0}), vector({0.0}), vector({1.0}), Vector::Zero(0)};
+  BorderedSystem system(sums, none, at);
+  const double epsilon = std::numeric_limits<double>::epsilon();
+  BOOST_TEST(system.noise() >= 0.5 * a * epsilon);
+  BOOST_TEST(system.noise() <= 4.0 * a * epsilon);
+}
+
 BOOST_AUTO_TEST_CASE(find_zero_shuts_in) {
   int calls = 0;
   const auto f = [&](double x) -> std::optional<double> {

@@ -190,8 +190,22 @@ double Chain::length(const VectorXd& x, const Loads& loads, int link) const {
 }
 
 contact::SmallVector Chain::rise(const VectorXd& x, const Placed& placed, int link) const {
-  if (!is_contact(link) || !is_contact(link + 1) || joints_[link]->surface() != joints_[link + 1]->surface())
-    return placed.right.x - placed.left.x;
+  if (!is_contact(link) || !is_contact(link + 1)) return placed.right.x - placed.left.x;
+  if (const obstacle::Surface* left = joints_[link]->surface(), *right = joints_[link + 1]->surface();
+      left != right) {
+    // A strand's touch and an edge beside it may come as near as two contacts of one obstacle; those of two obstacles do not.
+    if (left && right) return placed.right.x - placed.left.x;
+    const auto place = [&](int j) {
+      const double* w = coordinates(x, j);
+      const double* rest = x.data() + rest_at_[j] + rest_of_place;
+      if (!joints_[j]->surface())
+        return obstacle::LongVector3(Eigen::Vector3d(w).cast<long double>() +
+                                     Eigen::Vector3d(rest).cast<long double>());
+      return joints_[j]->surface()->place(joints_[j]->on_surface(w).cast<long double>() +
+                                          Eigen::Vector2d(rest).cast<long double>());
+    };
+    return Eigen::Vector3d((place(link + 1) - place(link)).cast<double>());
+  }
   const auto difference = [&](int k) {
     return coordinates(x, link + 1)[k] - coordinates(x, link)[k] +
            (x(rest_at_[link + 1] + rest_of_place + k) - x(rest_at_[link] + rest_of_place + k));

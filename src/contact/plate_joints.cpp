@@ -153,7 +153,7 @@ Joint::Location FlatTouch::location(const double* w, const SmallVector& g_left,
 void FlatTouch::adopt(const Place& place, double* w) const {
   w[0] = touch_.surface()->coordinates(place.r, place.angle)(0);
   Eigen::Map<Vector2d>{w + 1} = surface_coordinates(place.q, base_);
-  if (surface_frame(base_, w[1], w[2]).dot(place.q) < 0.0) w[2] += 2.0 * M_PI;  // the quaternion of this sign
+  adopt_sign(place.q, base_, w + 1);
 }
 
 LiftOff::LiftOff(Side flat_side, SurfacePointer line, SurfacePointer plate)

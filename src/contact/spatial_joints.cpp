@@ -291,19 +291,25 @@ void Touch::adopt(const Place& place, double* w) const {
   Eigen::Map<Eigen::Vector4d>{w + 2} = place.q;
 }
 
+void adopt_sign(const rod::Quaternion& q, const rod::Quaternion& base, double* w) {
+  if (surface_frame(base, w[0], w[1]).dot(q) < 0.0) w[1] += 2.0 * M_PI;
+}
+
 void Edge::adopt(const Place& place, double* w) const {
   Eigen::Map<Eigen::Vector2d>{w} = surface_->coordinates(place.r, place.angle);
   const rod::Quaternion base = surface_->base_frame(on_surface(w));
   Eigen::Map<Eigen::Vector2d>{w + 2} = surface_coordinates(place.q, base);
-  if (surface_frame(base, w[2], w[3]).dot(place.q) < 0.0) w[3] += 2.0 * M_PI;  // the quaternion of this sign
+  adopt_sign(place.q, base, w + 2);
 }
 
 void SurfaceSection::adopt(const Place& place, double* w) const {
   Eigen::Map<Eigen::Vector2d> u(w);
   u = surface_->coordinates(place.r, place.angle);
-  const Eigen::Vector2d turned = surface_coordinates(place.q, surface_->base_frame(u));
+  const rod::Quaternion base = surface_->base_frame(u);
+  const Eigen::Vector2d turned = surface_coordinates(place.q, base);
   w[2] = turned(0);
   w[3] = M_PI * std::round(turned(1) / M_PI);  // the half-turn about N keeps frames with d₁ = ±N
+  adopt_sign(place.q, base, w + 2);
 }
 
 void FreeSection::adopt(const Place& place, double* w) const {

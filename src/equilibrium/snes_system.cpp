@@ -84,7 +84,8 @@ CorrectorReport SnesSystem::solve(Problem& problem, const Borders& borders, Iter
   std::swap(iterate_, iterate);
   iterate_ = base_;
   BorderedSystem system(problem, borders, iterate_);
-  StoppingRule rule(options, part ? StoppingRule::Guess::far : StoppingRule::Guess::near);
+  StoppingRule rule(options, part ? StoppingRule::Guess::far : StoppingRule::Guess::near,
+                    [&] { return system.noise(); });
   system_ = &system;
   rule_ = &rule;
   part_ = part;

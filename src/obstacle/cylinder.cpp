@@ -35,6 +35,8 @@ Vector3d Cylinder::rise(const Vector2d& u, const Vector2d& step) const {
   return {chord * std::cos(middle), chord * std::sin(middle), step(1)};
 }
 
+LongVector3 Cylinder::place(const LongVector2& u) const { return {std::sin(u(0)), -std::cos(u(0)), u(1)}; }
+
 Vector2d Cylinder::coordinates(const Vector3d& r, double turn) const { return {turn, r(2)}; }
 
 Quaternion Cylinder::base_frame(const Vector2d& u) const {

@@ -26,6 +26,11 @@ Chart Plane::chart(const Vector2d& u) const {
   return at;
 }
 
+LongVector3 Plane::place(const LongVector2& u) const {
+  const long double distance = distance_;
+  return axes_.cast<long double>() * u - distance * normal_.cast<long double>();
+}
+
 double Plane::turn(const Vector2d& u) const {
   const Vector3d r = axes_ * u - distance_ * normal_;
   return std::atan2(r.x(), -r.y());

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <utility>
+
 #include <string>
 
 #include "continuation/options.hpp"
@@ -58,6 +61,8 @@ class BorderedSystem {
   const Vector& defect();
   /// max |F + Ψβ| of the last defect.
   double residual() const { return residual_; }
+  /// What rounding makes of F at the iterate: its change where every number of x is off by its last digit.
+  double noise();
 
   /// Factors the bordered Jacobian at the iterate. @throws as Problem::factor does
   void factor();
@@ -95,8 +100,9 @@ class StoppingRule {
   /// From a far guess corrections may grow, as long as they do not run away.
   enum class Guess { near, far };
 
-  explicit StoppingRule(const Options& options, Guess guess = Guess::near)
-      : options_(options), guess_(guess) {}
+  /// @param noise  what rounding leaves of the residual (BorderedSystem::noise); asked for only where corrections stall
+  explicit StoppingRule(const Options& options, Guess guess = Guess::near, std::function<double()> noise = {})
+      : options_(options), guess_(guess), noise_(std::move(noise)) {}
 
   /// Of a correction found with an old factorisation: would three more such corrections not do?
   bool slow(double length) const;
@@ -116,9 +122,11 @@ class StoppingRule {
  private:
   double contraction(double length) const { return length / previous_; }
   bool over(double length, bool all_rounding) const;
+  bool is_noise(double residual) const;
 
   const Options& options_;
   const Guess guess_;
+  const std::function<double()> noise_;
   int taken_ = 0;
   bool settling_ = false;
   double previous_ = 0.0, previous_residual_ = 0.0;

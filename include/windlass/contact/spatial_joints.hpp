@@ -27,6 +27,9 @@ Eigen::Matrix3d surface_spins(double curvature, double psi, double chi);
 /// Inclination and twist (mod 2π) of a frame whose tangent is normal to N.
 Eigen::Vector2d surface_coordinates(const rod::Quaternion& q, const rod::Quaternion& base);
 
+/// Adds a turn to the twist where the frame of (ψ, χ) is −q: one rotation, but arcs interpolate quaternions of one sign.
+void adopt_sign(const rod::Quaternion& q, const rod::Quaternion& base, double* psi_chi);
+
 class VectorJoint : public Joint {
  public:
   int ambient() const override { return tangent(); }

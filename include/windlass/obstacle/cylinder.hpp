@@ -16,6 +16,7 @@ class Cylinder final : public Surface {
   Matrix3d hessian(const Vector3d& r) const override;
   Chart chart(const Vector2d& u) const override;
   Vector3d rise(const Vector2d& u, const Vector2d& step) const override;
+  LongVector3 place(const LongVector2& u) const override;
   Vector2d coordinates(const Vector3d& r, double turn) const override;
   double turn(const Vector2d& u) const override { return u(0); }
   Quaternion base_frame(const Vector2d& u) const override;

@@ -18,6 +18,7 @@ class Plane final : public Surface {
   Matrix3d hessian(const Vector3d&) const override { return Matrix3d::Zero(); }
   Chart chart(const Vector2d& u) const override;
   Vector3d rise(const Vector2d&, const Vector2d& step) const override { return axes_ * step; }
+  LongVector3 place(const LongVector2& u) const override;
   Vector2d coordinates(const Vector3d& r, double) const override { return axes_.transpose() * r; }
   double turn(const Vector2d& u) const override;
   Quaternion base_frame(const Vector2d&) const override { return frame_; }

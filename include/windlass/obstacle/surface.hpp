@@ -12,6 +12,9 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Quaternion = Eigen::Vector4d;  ///< w, x, y, z; body → world
+/// To the long double of the machine, where differences of places count.
+using LongVector2 = Eigen::Matrix<long double, 2, 1>;
+using LongVector3 = Eigen::Matrix<long double, 3, 1>;
 
 /// A surface about one of its points, in its coordinates u = (u₀, u₁).
 struct Chart {
@@ -39,6 +42,8 @@ class Surface {
   virtual Chart chart(const Vector2d& u) const = 0;
   /// X(u + step) − X(u), to the digits of `step`.
   virtual Vector3d rise(const Vector2d& u, const Vector2d& step) const = 0;
+  /// X(u), to the digits of u.
+  virtual LongVector3 place(const LongVector2& u) const = 0;
   /// Coordinates of a place on the surface. @param turn  its unrolled angle round e_z, 0 at the south pole [rad]
   virtual Vector2d coordinates(const Vector3d& r, double turn) const = 0;
   /// The unrolled angle round e_z of X(u).

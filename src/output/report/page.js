@@ -28,14 +28,16 @@
 
   // ---- diagram --------------------------------------------------------------------------------------------------
 
-  /** Stretches of a branch with one stability. It changes at a point: the special one where there is one. */
+  /** Stretches of a branch with one stability, without a contact event inside: there a branch may have a corner, which a
+      spline would round off and overshoot. The stability changes at a point: the special one where there is one. */
   function arms(branch) {
+    const corners = new Set(data.special.filter((s) => s.type === "contact").map((s) => s.label));
     const kind = (index) => (index === null ? "unknown" : index === 0 ? "stable" : "unstable");
     if (branch.between.length === 0) return [{ kind: kind(branch.index[0]), from: 0, to: 0 }];
     const list = [];
     branch.between.forEach((index, k) => {
       const last = list[list.length - 1];
-      if (last && last.kind === kind(index)) last.to = k + 1;
+      if (last && last.kind === kind(index) && !corners.has(branch.names[k])) last.to = k + 1;
       else list.push({ kind: kind(index), from: k, to: k + 1 });
     });
     return list;
@@ -295,7 +297,7 @@
       marker: { size: 9, symbol: "diamond", color: values.map((v) => (v < 0 ? "#c00000" : "#0072b2")) }, hovertemplate: "%{y:.6g}<extra></extra>" }], {
       font: { ...font, size: 11 }, margin: { l: 48, r: 8, t: 6, b: 36 },
       xaxis: { title: { text: "number", standoff: 4 }, dtick: 1, range: [0.5, Math.max(values.length, 1) + 0.5], showline: true, gridcolor: "#eee" },
-      yaxis: { title: { text: "eigenvalue" }, rangemode: "tozero", zeroline: true, zerolinecolor: "#999", zerolinewidth: 2, showline: true, gridcolor: "#eee" },
+      yaxis: { title: { text: "eigenvalue", standoff: 8 }, automargin: true, rangemode: "tozero", zeroline: true, zerolinecolor: "#999", zerolinewidth: 2, showline: true, gridcolor: "#eee" },
       annotations: values.length ? [] : [{ text: "not computed", showarrow: false, xref: "paper", yref: "paper", x: 0.5, y: 0.5 }],
     }, plain);
   }

@@ -204,6 +204,29 @@ BOOST_AUTO_TEST_CASE(attachments_of_spatial_joints) {
       check("end of a free rod", FreeRodEnd(Side::left, under_thrust, pinned), {Side::left});
 }
 
+/// q and -q are one frame, but arcs interpolate quaternions of one sign: a joint takes over the one that it is given.
+BOOST_AUTO_TEST_CASE(joints_on_surfaces_take_over_the_sign_of_a_quaternion) {
+  using namespace contact::spatial;
+  const auto check_sign = [](const char* name, const Joint& joint, const obstacle::Surface& surface) {
+    const Eigen::Vector2d u(0.4, 0.1);
+    for (const double twist : {0.0, M_PI, -M_PI, 2.0 * M_PI}) {
+      contact::Place place;
+      place.angle = u(0);
+      place.r = surface.chart(u).r;
+      place.q = surface_frame(surface.base_frame(u), 0.0, twist);
+      VectorXd w = VectorXd::Zero(joint.ambient() + 1);
+      joint.adopt(place, w.data());
+      const SmallVector q = joint.attach(Side::left, w.data(), some_loads()).q;
+      const double turned = std::remainder(q(1) - twist, 4.0 * M_PI);  // q: inclination and twist on the line
+      BOOST_TEST(std::abs(turned) < 1e-12, name << ", twist " << twist << ": " << q(1));
+    }
+  };
+  for (const obstacle::SurfacePointer& surface : {obstacle::unit_cylinder(), wall()}) {
+    check_sign("section", SurfaceSection(surface), *surface);
+    check_sign("edge", Edge(Side::left, 1.2, surface, {1.0, 1.0, 1.0}, {0.0, 0.0, 0.0}), *surface);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(location_conditions) {
   check_location("planar touch", contact::planar::Touch(), 1);
   check_location("planar edge", contact::planar::Edge(Side::left, 1.2), 1);
