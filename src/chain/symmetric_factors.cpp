@@ -89,9 +89,10 @@ SmallEigenvalues small_eigenvalues(const Eigen::MatrixXd& a, double close) {
   if (a.rows() == 0) return out;
   Eigen::VectorXd all;
   eigenvalues(a, 0.0, all, out.vectors);
-  out.negative = static_cast<int>((all.array() < 0.0).count());
   const double bound = close * all.cwiseAbs().maxCoeff();
   if ((all.array().abs() <= bound).any()) eigenvalues(a, bound, out.values, out.vectors);
+  // The signs of those next to nothing are those of the values given: another way to them rounds differently.
+  out.negative = static_cast<int>((all.array() < -bound).count() + (out.values.array() < 0.0).count());
   return out;
 }
 
