@@ -1,5 +1,6 @@
 #include "symmetric_factors.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -87,6 +88,18 @@ void eigenvalues(Eigen::MatrixXd a, double bound, Eigen::VectorXd& values, Eigen
 SmallEigenvalues small_eigenvalues(const Eigen::MatrixXd& a, double close) {
   SmallEigenvalues out;
   if (a.rows() == 0) return out;
+  // Up to here all vectors cost less than a Newton step. Signs at rounding are those of whichever way is taken.
+  constexpr Eigen::Index few = 500;
+  if (a.rows() <= few) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(a);
+    const Eigen::VectorXd& values = eigen.eigenvalues();
+    const double bound = close * values.cwiseAbs().maxCoeff();
+    const Eigen::Index begin = (values.array() < -bound).count(), end = (values.array() <= bound).count();
+    out.negative = static_cast<int>((values.array() < 0.0).count());
+    out.values = values.segment(begin, end - begin);
+    out.vectors = eigen.eigenvectors().middleCols(begin, end - begin);
+    return out;
+  }
   Eigen::VectorXd all;
   eigenvalues(a, 0.0, all, out.vectors);
   const double bound = close * all.cwiseAbs().maxCoeff();

@@ -359,8 +359,7 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
       if (auto closed = line_closes(event, topology, strip)) {
         closed = with_touches(skeleton_of(Strip(*closed)).strip.successor(), profile, topology);
         // Beside a line hardly anything parts it from what comes next; between two touches a third is one by itself at first.
-        const bool beside_line =
-            next_to_line(event, topology) && (event.redrawn || !opens_line(event, topology));
+        const bool beside_line = next_to_line(event, topology);
         std::vector<Successor> out = strands_meet(event, strip);
         out.insert(beside_line ? out.begin() : out.end(), *closed);
         if (const auto longer = line_extends(event, topology, strip)) out.insert(out.begin(), *longer);

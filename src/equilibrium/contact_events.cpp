@@ -284,9 +284,8 @@ std::vector<ContactEvent> approach_events(const Profile& profile, const Topology
     if (const auto* faced = strands.facing(near.link, near.other, near.mirrored);
         faced && faced->line < 0 &&
         (strands.line_of(faced->begin) >= 0 || strands.line_of(faced->end) >= 0)) {
-      const bool middle = strands.opened_middle(*faced);
-      event.redrawn = middle && carries_openings(profile, *faced);
-      if (!middle || event.redrawn) event.value += carried_between_strands;  // as in the line beside it
+      event.value += carried_between_strands;  // as in the line beside it
+      event.redrawn = strands.opened_middle(*faced);
     }
     const auto same = std::find_if(events.begin(), events.end(), [&](const ContactEvent& other) {
       return other.named == event.named && other.named_other == event.named_other &&

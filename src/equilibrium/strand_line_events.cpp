@@ -108,15 +108,6 @@ std::optional<ContactEvent> laid_between(const Profile& profile, const chain::St
   return event;
 }
 
-bool carries_openings(const Profile& profile, const chain::Strands::Facing& opened) {
-  constexpr double height = 0.0025, most = 2e-9;  // [ρ]: pulls beside let H jump by a tenth of it and more
-  const auto at = [&](int joint) { return profile.pieces[joint].s(0); };
-  const auto end = std::find_if(profile.contacts.begin(), profile.contacts.end(),
-                                [&](const Contact& c) { return c.joint == opened.begin && c.coupling >= 0; });
-  return height * end->force * std::pow(at(opened.end) - at(opened.begin), 3) <
-         most * profile.material.bending_stiffness;
-}
-
 double carried_pull(const Profile& profile, const chain::Strands& strands, int joint) {
   if (!strands.inside_line(joint)) return 0.0;
   const double h = span_of(profile, strands, joint);

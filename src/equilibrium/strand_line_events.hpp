@@ -43,10 +43,6 @@ std::optional<ContactEvent> laid_between(const chain::Profile& profile, const ch
 /// wrong there is Q times that, 1e-9 at most.
 inline constexpr double opened_between_strands = 1e-8;
 
-/// Where the strands meet again in the middle of what two edges, images of each other, have opened, each of the two openings that are
-/// left is 0.0025 λ L³/B high, λ the force at an end and L the length of the whole: does the line carry them?
-bool carries_openings(const chain::Profile& profile, const chain::Strands::Facing& opened);
-
 /// Of a line between strands the touches inside may pull, as its pressure changes its sign, with what would open the strands by
 /// no more than they may be nearer elsewhere: a force F lifts both over the span h of its neighbours by Fh³/12B.
 double carried_pull(const chain::Profile& profile, const chain::Strands& strands, int joint);

@@ -177,17 +177,6 @@ std::optional<Successor> line_with_next(int joint, const chain::Profile& profile
   return std::nullopt;
 }
 
-namespace {
-
-/// The force at the edge of a line on an obstacle keeps strands apart.
-bool edge_within(const Strip& strip, int begin, int end) {
-  for (int j = begin + 1; j < end; ++j)
-    if (strip.on[j].strand == 0) return true;
-  return false;
-}
-
-}  // namespace
-
 std::optional<Successor> line_joins(int joint, const chain::Profile& profile, const Topology& topology,
                                     Strip strip) {
   constexpr double near = 0.1;
@@ -198,7 +187,6 @@ std::optional<Successor> line_joins(int joint, const chain::Profile& profile, co
                  line = strands.line_of(f.begin + f.end - joint) >= 0;
       if (f.line >= 0 || !beside || !line || strip.s[f.end] - strip.s[f.begin] > near * profile.unit_length)
         continue;
-      if (edge_within(strip, f.begin, f.end) || edge_within(strip, f.other_begin, f.other_end)) continue;
       unite(f, strip);
       measure_parts(strip);
       return with_touches(skeleton_of(strip).strip.successor(), profile, topology);

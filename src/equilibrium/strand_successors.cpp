@@ -198,7 +198,7 @@ std::vector<Successor> strands_split(const ContactEvent& event, const Strip& str
   std::vector<Successor> out;
   // Two touches, the strands apart between them, or the ends of a line. On obstacles two touches next to each other are that.
   for (const int line : {0, fresh})
-    for (const double part : {0.05, 0.02, 0.1, 0.008}) {
+    for (const double part : {0.05, 0.02, 0.1}) {
       const double length = part * profile.unit_length;
       Strip split = strip;
       const auto widen = [&](int joint, int before, int after, int mark) {
