@@ -93,8 +93,9 @@ bool Walker::advance_once(std::string& failure) {
     state_.events_in_place = event->s > 1e-6 * options_.step_min + 1e-12 ? 0 : state_.events_in_place + 1;
     if (event->s > 0.0) settle(segment, *end);
     ++state_.points;
+    const double met = point.p[options_.parameter];
     settle_event(point, event->event);
-    pass(std::move(point), event->which, event->event, state_.tangent.p < 0.0 ? -1 : 1);
+    pass(std::move(point), event->which, event->event, state_.tangent.p < 0.0 ? -1 : 1, met);
     return true;
   }
   accept(segment, *end, report, reason);

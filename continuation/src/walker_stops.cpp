@@ -91,7 +91,8 @@ bool Walker::event_at_edge() {
     Point point = special(segment, located);
     ++state_.events_in_place;
     ++state_.points;
-    pass(std::move(point), i, event.name, state_.tangent.p < 0.0 ? -1 : 1);
+    const double met = point.p[options_.parameter];
+    pass(std::move(point), i, event.name, state_.tangent.p < 0.0 ? -1 : 1, met);
     return true;
   }
   return false;

@@ -147,7 +147,7 @@ void Walker::note(Point event, const EventFunction& function, const Transition& 
   if (!image) queue_.push_back(std::move(event));
 }
 
-void Walker::pass(Point event, std::size_t which, const std::string& name, int direction) {
+void Walker::pass(Point event, std::size_t which, const std::string& name, int direction, double met) {
   const auto finish = [&](End::Kind kind, const std::string& reason) {
     queue_.push_back(std::move(event));
     pending_end_ = End{kind, reason};
@@ -180,6 +180,7 @@ void Walker::pass(Point event, std::size_t which, const std::string& name, int d
     event.p = transition->p;
     event.tangent = state_.tangent;
     event.precision = transition->precision;
+    if (!transition->vanishes.empty()) event.event = transition->vanishes;
   }
   if (const auto& located = transition->located) {
     event.problem = located->problem;
@@ -190,23 +191,29 @@ void Walker::pass(Point event, std::size_t which, const std::string& name, int d
   say_what_follows(event);
   const double before = event.p[options_.parameter], precision = std::max(event.precision, 0.0);
   if (!transition->silent) queue_.push_back(std::move(event));
-  stop_before_entry(before, precision);
+  stop_before_entry(met, before, precision);
 }
 
-// The branch went on a little beyond the event: a stop value in between is met on the way back to it.
-void Walker::stop_before_entry(double event, double precision) {
-  // A walk that begins at the event has it for a bound, found anew.
+// The branch went on a little beyond the event: a stop value in between, or at the event, is met on the way back to it.
+void Walker::stop_before_entry(double met, double event, double precision) {
   const double same = std::max(precision, 1e-10 * std::max(1.0, std::abs(event)));
   for (const double stop : {options_.target, options_.lower, options_.upper}) {
     const double entered = parameter(state_.p);
-    if (!((event - stop) * (entered - stop) <= 0.0) || std::abs(stop - event) <= same) continue;
+    const bool at_event = std::abs(stop - event) <= same, is_target = stop == options_.target;
+    const bool beyond = (stop - entered) * (entered - event) > 0.0;
+    const bool on_the_way = at_event || (met - stop) * (event - stop) <= 0.0;
+    const bool passed = (event - stop) * (entered - stop) <= 0.0 || (is_target && on_the_way && !beyond);
+    // A walk that begins at the event has it for a bound, found anew.
+    if (!passed || (at_event && !is_target)) continue;
     if (stop != entered && !walk_back_to(stop)) {
-      pending_end_ = End{End::Kind::lost, "no state was found between an event and where the branch goes on"};
+      pending_end_ =
+          at_event ? End{End::Kind::target, "target reached"}  // as near as it can be solved
+                   : End{End::Kind::lost, "no state was found between an event and where the branch goes on"};
       return;
     }
     queue_.push_back(here(PointType::end));
-    pending_end_ = stop == options_.target ? End{End::Kind::target, "target reached"}
-                                           : End{End::Kind::bound, "bound reached"};
+    pending_end_ =
+        is_target ? End{End::Kind::target, "target reached"} : End{End::Kind::bound, "bound reached"};
     return;
   }
 }

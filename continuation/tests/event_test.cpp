@@ -67,6 +67,23 @@ BOOST_AUTO_TEST_CASE(branch_goes_through_events_with_a_change_of_size) {
   BOOST_TEST(of_type(points, PointType::branch_point).empty());
 }
 
+// p = 1 − x² comes back behind its turn as the mirror image of what is before it: |x| is alike at both ends of the step.
+BOOST_AUTO_TEST_CASE(an_event_between_mirror_images_is_not_jumped_over) {
+  auto problem = scalar([](double x, const Vector& p) { return p[0] - 1.0 + x * x; });
+  problem->events_of = [](const Vector& x, const Vector&) {
+    return std::vector<EventFunction>{{"distance", std::abs(x[0]) - 0.05}};
+  };
+  problem->transition_of = [](std::size_t, const Vector&, const Vector&) -> std::optional<Transition> {
+    return Transition{nullptr, {}, "apart", "touch", {}};
+  };
+  Options options;
+  options.step = 0.4;
+  Walker walker(problem, vector({-0.2}), vector({0.96}), options);
+  const auto points = walk(walker);
+  BOOST_TEST((walker.end().kind == End::Kind::event));
+  BOOST_TEST(std::abs(points.back().x[0] + 0.05) < 1e-9);
+}
+
 BOOST_AUTO_TEST_CASE(several_events_in_one_step_come_in_order) {
   auto problem = scalar([](double x, const Vector& p) { return x - p[0]; });
   problem->events_of = [](const Vector& x, const Vector&) {
@@ -148,6 +165,32 @@ BOOST_AUTO_TEST_CASE(branch_may_turn_back_at_an_event) {
   BOOST_TEST(of_type(points, PointType::event).size() == 1u);
   BOOST_TEST(points.back().p[0] == -1.0);
   BOOST_TEST(std::abs(points.back().x[0] - 2.0) < 1e-10);
+}
+
+// An event is known to its precision: a stop value within that is met there, from both sides, and not passed by.
+BOOST_AUTO_TEST_CASE(a_stop_value_at_an_event_is_met) {
+  for (const double off : {0.0, 1e-15, -1e-15, 1e-12, -1e-12, 1e-8, -1e-8}) {
+    auto first = scalar([](double x, const Vector& p) { return x - p[0]; });
+    first->events_of = [](const Vector& x, const Vector&) {
+      return std::vector<EventFunction>{{"first", 0.5 - x[0]}};
+    };
+    auto second = scalar([](double x, const Vector& p) { return x - 2.0 * p[0] + 0.5; });
+    second->events_of = [](const Vector& x, const Vector&) {
+      return std::vector<EventFunction>{{"second", x[0] - 0.5}};
+    };
+    first->transition_of = [second](std::size_t, const Vector& x, const Vector&) {
+      return std::optional(Transition{second, x, "first", "second", {}});
+    };
+    Options options;
+    options.target = options.upper = 0.5 + off;
+    options.lower = 0.0;
+    Walker walker(first, vector({0.0}), vector({0.0}), options);
+    const auto points = walk(walker);
+    BOOST_TEST_CONTEXT("beside the event by " << off) {
+      BOOST_TEST((walker.end().kind == End::Kind::target));
+      BOOST_TEST(std::abs(points.back().p[0] - options.target) <= 1e-14);
+    }
+  }
 }
 
 // Beyond x = p = 1/2 the law is p = 1/2 + (x - 1/2)², and the branch goes on at x = 0.7, p = 0.54.

@@ -258,9 +258,10 @@ std::vector<Successor> after_skeleton(const ContactEvent& event, const Profile& 
                                 !follows(event.place + 1));
   if (alone || skeleton.strip.s.size() == strip.s.size()) {
     if (!length) return strands_split(event, strip, profile);
-    std::vector<Successor> out = after_length(event.place, strip),
-                           longer = line_passes_edge(event.place, profile, topology, strip);
-    out.insert(out.begin(), longer.begin(), longer.end());
+    std::vector<Successor> out = line_passes(event.place, false, profile, topology, strip);
+    for (const auto& others :
+         {after_length(event.place, strip), line_passes(event.place, true, profile, topology, strip)})
+      out.insert(out.end(), others.begin(), others.end());
     return out;
   }
   here.place = (length ? skeleton.link : skeleton.joint)[event.place];

@@ -34,12 +34,45 @@ constexpr double towards = 0.3;
 /// instead.
 constexpr double longest = 3.0, whole = 25.0;
 
+/// Growth lengths from the contact to an element that is left whole. There the rod is bent by exp(−16) = 1e-7 at most, of which the
+/// element, that does not see it, makes an error of 5e-3; meshes begin it where that is 2e-9, so that they last.
+constexpr double bent = 16.0, straight = 20.0;
+
 /// One element is enough for so short an arc [unit length], and rounds least: moments follow from differences of frames,
 /// divided by the element's length. Taken away from one that has shrunk to a fifth of it.
 constexpr double short_arc = 0.05, shrunk_to = 0.01;
 
 double growth_over(const chain::Chain::Placed& arc, double bending_stiffness) {
   return arc.length * std::sqrt(arc.n.norm() / bending_stiffness);
+}
+
+/// Place in a mesh of an element left whole that is too near the tail's contact; 0: there is none. Nodes are counted from the contact.
+std::size_t whole_but_bent(const std::vector<double>& nodes, double growth) {
+  for (std::size_t k = 1; k < nodes.size(); ++k)
+    if (growth * (nodes[k] - nodes[k - 1]) >= whole && growth * nodes[k - 1] < bent) return k;
+  return 0;
+}
+
+std::vector<double> reversed(std::vector<double> nodes) {
+  std::reverse(nodes.begin(), nodes.end());
+  for (double& node : nodes) node = 1.0 - node;
+  return nodes;
+}
+
+/// A tail's mesh, finer up to where it is straight.
+std::vector<double> fine_while_bent(std::vector<double> nodes, double growth, bool towards_contact) {
+  if (towards_contact) {
+    std::vector<double> turned = reversed(nodes);
+    return whole_but_bent(turned, growth) > 0 ? reversed(fine_while_bent(turned, growth, false)) : nodes;
+  }
+  const auto k = static_cast<std::ptrdiff_t>(whole_but_bent(nodes, growth));
+  if (k == 0) return nodes;
+  nodes.insert(nodes.begin() + k, straight / growth);
+  std::vector<double> out = chain::split_mesh({nodes.begin(), nodes.begin() + k + 1}, growth, longest);
+  const std::vector<double> rest =
+      chain::split_mesh({nodes.begin() + k, nodes.end()}, growth, longest, whole);
+  out.insert(out.end(), rest.begin() + 1, rest.end());
+  return out;
 }
 
 /// Has a contact grown, by a fifth, out of the elements it was given?
@@ -53,6 +86,9 @@ bool outgrown(const chain::Chain& chain, const std::vector<chain::ArcMesh>& mesh
       const double size = growth * (nodes[k] - nodes[k - 1]);
       if (size > 1.2 * longest && size < whole) return true;
     }
+    const bool towards_contact = i == 0;
+    if (chain.link(i).role == "tail" && whole_but_bent(towards_contact ? reversed(nodes) : nodes, growth) > 0)
+      return true;
   }
   return false;
 }
@@ -147,7 +183,10 @@ std::vector<chain::ArcMesh> RodProblem::new_meshes(const Vector& x, const Loads&
     }
     mesh.push_back(1.0);
     const chain::Chain::Placed placed = chain_->place(x, at, static_cast<int>(i));
-    out[i].nodes = chain::split_mesh(mesh, growth_over(placed, rod_.bending_stiffness), longest, whole);
+    const double grown = growth_over(placed, rod_.bending_stiffness);
+    mesh = chain::split_mesh(mesh, grown, longest, whole);
+    if (topology_.stretches[i] == chain::Stretch::tail) mesh = fine_while_bent(mesh, grown, i == 0);
+    out[i].nodes = mesh;
   }
   return out;
 }

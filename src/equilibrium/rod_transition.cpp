@@ -39,7 +39,7 @@ std::optional<std::string> vanishing_with(const chain::Profile& shape, const Top
 /// the arc that is a zero of the curvature of the touch at s, or of the pressure there.
 /// @returns the precision of p(0), nothing if there is no such zero near
 /// @param name  of what vanishes; not given: chosen once, for on the way to the event it moves
-std::optional<double> locate_from_beyond(Entry& entry, double s, std::optional<std::string> name = {}) {
+std::optional<double> locate_from_beyond(Entry& entry, double s, std::optional<std::string>& name) {
   const auto value_at = [&](Entry& at) -> std::optional<double> {
     if (at.problem->polish(at.x, at.p, 18) < 0) return std::nullopt;
     const chain::Profile shape = at.problem->profile(at.x, at.p);
@@ -173,10 +173,10 @@ std::string new_touch_force(const Topology& topology) {
   return "force " + std::to_string(std::min(newest, chain::Strands(topology).partner(newest)));
 }
 
-/// Solves for the successor of an event. @param precision  set where the state found is the event itself
+/// Solves for the successor of an event. @param transition  told where the state found is the event itself
 /// @param becomes_touch  a line on a plane has no length left
 std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const Successor& next,
-                           bool becomes_touch, double& precision) {
+                           bool becomes_touch, continuation::Transition& transition) {
   constexpr int most_together = 5;
   const double unit = guess.problem->rod().unit_length;
   Entry exact = guess;
@@ -188,13 +188,14 @@ std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const 
   const bool meets = event.kind == Kind::approach && !event.redrawn;
   const double at = vanishes ? event.s + 0.5 * least_length * unit : event.s;
   if ((vanishes || meets) && tried([&] {
-        const auto found = locate_from_beyond(
-            exact, at, meets ? std::optional(new_touch_force(next.topology)) : std::nullopt);
-        if (found) precision = *found;
+        std::optional<std::string> name;
+        if (meets) name = new_touch_force(next.topology);
+        const auto found = locate_from_beyond(exact, at, name);
+        if (found) transition.precision = *found, transition.vanishes = *name;
         return found && holds(exact);
       }))
     return exact;
-  precision = -1.0;
+  transition.precision = -1.0;
   std::optional<Entry> entered;
   if (next.bowed >= 0) {
     Entry bow = guess;
@@ -257,7 +258,7 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
       first = transition;
     }
     const bool shrinks = event.kind == Kind::length && straight_line(*this, event.place) >= 0;
-    std::optional<Entry> found = enter(entry, event, next, shrinks, transition.precision);
+    std::optional<Entry> found = enter(entry, event, next, shrinks, transition);
     if (!found || (!event.redrawn && found->problem->topology() == topology_))
       continue;  // not where it came from
     if (!tried([&] { return found->problem->settle(found->x, found->p), true; })) continue;

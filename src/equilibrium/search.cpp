@@ -33,9 +33,9 @@ std::vector<Range> ranges(const scene::Scene& scene, double goal) {
       if (from < goal) out.push_back({from, goal + as_far_again * std::min(goal, 0.2)});
     return out;
   }
-  // A coil whose turns press on each other is no flat coil at any tension; a stable one is found at each.
-  if (scene.strand_radius() > 0.0) return {{1.5 * goal, as_far_again * goal}, {goal, as_far_again * goal}};
   std::vector<Range> out;
+  // A coil whose turns press on each other is no flat coil at any tension; a stable one is found at each where strands touch.
+  if (scene.strand_radius() > 0.0) out = {{1.5 * goal, as_far_again * goal}, {goal, as_far_again * goal}};
   for (double factor = 1.5; factor < 400.0; factor *= 1.7)
     out.push_back({goal * factor, goal * as_far_again});
   return out;

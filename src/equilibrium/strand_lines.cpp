@@ -225,13 +225,19 @@ std::optional<Successor> line_closes(const ContactEvent& event, const Topology& 
   return strip.successor();
 }
 
-std::vector<Successor> line_passes_edge(int link, const chain::Profile& profile, const Topology& topology,
-                                        const Strip& strip) {
+std::vector<Successor> line_passes(int link, bool by_strand, const chain::Profile& profile,
+                                   const Topology& topology, const Strip& strip) {
   const Strands strands(topology);
-  const auto ends_line = [&](int joint) { return strip.on[joint].line != 0 && !strands.inside_line(joint); };
+  const auto ends_line = [&](int joint) {
+    const bool marked = strip.on[joint].line != 0 || (by_strand && strands.line_of(joint) >= 0);
+    return marked && !strands.inside_line(joint);
+  };
   std::vector<Successor> out;
   for (const auto& [end, edge] : {std::pair(link, link + 1), std::pair(link + 1, link)}) {
-    if (!ends_line(end) || strip.on[edge].strand != 0) continue;
+    const bool pressed = strip.on[edge].strand != 0;
+    if (edge == 0 || edge + 1 == static_cast<int>(strip.s.size())) continue;  // the mid-point, the rod's end
+    const bool same_line = pressed && strands.line_of(edge) == strands.line_of(end);
+    if (!ends_line(end) || pressed != by_strand || same_line) continue;
     const StrandLine& line = strands.lines()[strands.line_of(end)];
     const int other = partner(strip, end);
     const double way = edge < end ? -1.0 : 1.0;
@@ -239,8 +245,12 @@ std::vector<Successor> line_passes_edge(int link, const chain::Profile& profile,
       const double s = strip.s[edge] + way * length * profile.unit_length;
       const double met = foot(profile, s, strip.s[other] + (line.image ? -way : way) * length, line.image);
       Strip longer = strip;
+      // Marked, for what presses on it stands between touches next to each other.
+      if (strip.on[end].line == 0)
+        mark_line(longer, line.first, line.second, line.own_image(), new_strand(strip));
       longer.on[end].part = longer.on[other].part = 0.5;
-      add_pair(longer, s, met, line.image, line.own_image(), {0, new_strand(strip), 0.0, strip.on[end].line});
+      add_pair(longer, s, met, line.image, line.own_image(),
+               {0, new_strand(longer), 0.0, longer.on[end].line});
       out.push_back(with_touches(skeleton_of(longer).strip.successor(), profile, topology));
     }
   }

@@ -23,9 +23,11 @@ void add_pair(Strip& strip, double s, double other, bool mirrored, bool own_stra
 /// Where along the other strand of a touch is nearest to a place along the first. @param guess  of it
 double foot(const chain::Profile& profile, double s, double guess, bool mirrored);
 
-/// The end of a line between strands has reached the edge of a line on an obstacle: it goes on beyond that. nullopt: another link.
-std::vector<Successor> line_passes_edge(int link, const chain::Profile& profile,
-                                        const chain::Topology& topology, const Strip& strip);
+/// The end of a line between strands has reached the edge of a line on an obstacle, or a place where another strand presses on it: it
+/// goes on beyond that. Pressed right before the end, the line has its end's force there, and hardly any is left for the end. Empty:
+/// another link. @param by_strand  what presses, not the edge
+std::vector<Successor> line_passes(int link, bool by_strand, const chain::Profile& profile,
+                                   const chain::Topology& topology, const Strip& strip);
 
 /// Takes out a touch between strands: at each place the arcs beside it become one.
 void take_out(int j, Strip& strip);

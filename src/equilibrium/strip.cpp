@@ -49,8 +49,13 @@ void Strip::erase(int i, int bound) {
 void Strip::merge(int first, int last, Stretch kind) {
   for (int i = last; i > first; --i) erase(i, i);
   parts[first].kind = kind;
-  if (kind == Stretch::line && starts_at_mid(first) && !mid_touch)
-    on[0] = on[1];  // a section of it is there now
+  if (kind != Stretch::line || !starts_at_mid(first)) return;
+  if (!mid_touch) {
+    on[0] = on[1];  // a section of it is there now, which no strand touches
+    on[0].strand = on[0].line = on[0].shares = 0;
+    on[0].part = 0.0;
+  }
+  mid_touch = mid_touch && on[0].strand != 0;  // a touch of the line's own obstacle is part of it
 }
 
 void Strip::split(int i, double at, Stretch left, Stretch right, std::optional<chain::Seat> contact) {

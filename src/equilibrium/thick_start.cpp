@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "attempt.hpp"
+#include "entry.hpp"
 #include "strip.hpp"
+#include "windlass/equilibrium/opening.hpp"
 #include "windlass/scene/error.hpp"
 
 namespace windlass::equilibrium {
@@ -93,6 +95,22 @@ std::optional<Started> pressed_apart(const Started& flat, double radius) {
   return Started{problem, x, problem->parameters(), flat.newton_iterations};
 }
 
+/// The flat rod pressed apart and in balance. @param mended  with the contacts that follow where they do not hold at once
+std::optional<Started> settled_apart(const Started& flat, double radius, bool mended) {
+  std::optional<Started> trial = pressed_apart(flat, radius);
+  if (!trial) return std::nullopt;
+  const int used = trial->problem->polish(trial->x, trial->p);
+  if (used < 0) return std::nullopt;
+  trial->newton_iterations += used;
+  if (contacts_hold(*trial->problem, trial->x, trial->p)) return trial;
+  constexpr int most = 6;
+  Entry entry{trial->problem, trial->x, trial->p};
+  if (!mended || !tried([&] { return mend(entry, most, false, trial->newton_iterations); }))
+    return std::nullopt;
+  trial->problem = entry.problem, trial->x = entry.x;
+  return contacts_hold(*trial->problem, trial->x, trial->p) ? trial : std::nullopt;
+}
+
 /// A flat rod that nowhere crosses itself, as one that may.
 Started as_thick(const Started& flat, const scene::Scene& scene, bool half,
                  const std::vector<std::string>& keys) {
@@ -106,16 +124,13 @@ Started as_thick(const Started& flat, const scene::Scene& scene, bool half,
 
 std::optional<Started> thicken(const Started& flat, const scene::Scene& scene, bool half,
                                const std::vector<std::string>& keys, std::string& failure) {
+  if (!pressed_apart(flat, std::min(0.01, scene.rod_radius))) return as_thick(flat, scene, half, keys);
   std::optional<Started> start;
-  // As thick as Newton's method reaches at once: under high tension turns part by so little that they must be thinner.
-  for (double radius = std::min(0.01, scene.rod_radius); !start && radius > 1e-5; radius *= 0.3) {
-    std::optional<Started> trial = pressed_apart(flat, radius);
-    if (!trial) return as_thick(flat, scene, half, keys);
-    const int used = trial->problem->polish(trial->x, trial->p);
-    if (used < 0 || !contacts_hold(*trial->problem, trial->x, trial->p)) continue;
-    trial->newton_iterations += used;
-    start = trial;
-  }
+  // As thick as Newton's method reaches at once: under high tension turns part by so little that they must be thinner. Turns between
+  // clamps are twisted, and press on each other however thin they are.
+  for (const bool mended : {false, true})
+    for (double radius = std::min(0.01, scene.rod_radius); !start && radius > 1e-5; radius *= 0.3)
+      start = settled_apart(flat, radius, mended);
   if (!start) {
     failure = "pressed apart where they cross, the strands of the flat rod would pull at each other";
     return std::nullopt;

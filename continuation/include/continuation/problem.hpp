@@ -29,6 +29,8 @@ struct Transition {
   /// Of p, if `state` at p is the event itself, located from beyond; negative: it is not. Where the branch ends: how
   /// far the end may be from the zero of the event's function.
   double precision = -1.0;
+  std::string vanishes =
+      {};  ///< there, the function of `problem` that is zero at the event; "": none has a name
   std::optional<Located> located = {};
   bool silent = false;  ///< the same state, described otherwise: no point of the branch
 };

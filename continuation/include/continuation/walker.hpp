@@ -98,9 +98,10 @@ class Walker {
   // walker_transition.cpp
   void say_what_follows(Point& event) const;
   void note(Point event, const EventFunction& function, const Transition& transition);
-  void pass(Point event, std::size_t which, const std::string& name, int direction);
+  /// @param met  p[parameter] up to which stop values have been looked for: on the mesh before the event's own
+  void pass(Point event, std::size_t which, const std::string& name, int direction, double met);
   static Sample* solution_at(Segment& segment, double value, const Sample& lo, const Sample& hi);
-  void stop_before_entry(double event, double precision);
+  void stop_before_entry(double met, double event, double precision);
   bool walk_back_to(double stop);
   bool enter(const Transition& transition, int direction, const std::string& passed, std::string& failure);
   bool valid_direction(const std::shared_ptr<Problem>& problem, const Vector& x, const Vector& p,
