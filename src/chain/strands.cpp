@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <utility>
 
 #include "windlass/chain/topology.hpp"
 
@@ -51,17 +50,17 @@ int Strands::others(int begin, int end) const {
 bool Strands::divides_first(const StrandLine& line) const {
   const auto count = [&](const std::vector<int>& strand) {
     const auto [low, high] = std::minmax(strand.front(), strand.back());
-    int lines = 0;
-    for (const StrandLine& other : lines_) {  // those that run along it: they share its places
+    int sum = others(low, high);
+    for (const StrandLine& other : lines_) {  // those that run along it
       if (&other == &line || other.own_image() || other.on_obstacles) continue;
       for (const std::vector<int>* side : {&other.first, &other.second}) {
         const auto [begin, end] = std::minmax(side->front(), side->back());
-        lines += begin < high && end > low;
+        sum += begin < high && end > low;
       }
     }
-    return std::pair(lines, others(low, high));
+    return sum;
   };
-  const std::pair of_first = count(line.first), of_second = count(line.second);
+  const int of_first = count(line.first), of_second = count(line.second);
   return of_first > of_second || (of_first == of_second && line.first.front() < line.second.front());
 }
 
@@ -70,14 +69,8 @@ void Strands::find_laid() {
   for (const StrandLine& line : lines_) {
     const int links = line.links(), low = links / 2, high = links - low;
     const std::vector<int>&first = line.first, &second = line.second;
-    // Of a line with the own image first the half that more touches of other strands are on: each is to have one of the line's.
-    const auto on_half = [&](int begin, int end) {
-      int touches = 0;
-      for (int j = begin + 1; j < end; ++j) touches += !inside_line(j) && partner_[j] >= 0;
-      return std::pair(touches, others(begin, end));
-    };
     const bool by_first = line.own_image()
-                              ? on_half(first.front(), first[low]) >= on_half(first[high], first.back())
+                              ? others(first.front(), first[low]) >= others(first[high], first.back())
                               : divides_first(line);
     for (int i = 1; i < links; ++i) {
       if (line.own_image() && 2 * i >= links) break;

@@ -120,12 +120,6 @@ std::vector<double> laid_out(const Course& course, double begin, double end, std
   return out;
 }
 
-/// Does another strand press where a joint of a strip is?
-bool strand_presses(const Strip& strip, double s) {
-  const auto at = std::find(strip.s.begin(), strip.s.end(), s);
-  return at != strip.s.end() && strip.on[static_cast<std::size_t>(at - strip.s.begin())].strand != 0;
-}
-
 /// One line of a skeleton: its ends, along the strand that is divided, and the joints between them.
 struct Divided {
   std::vector<double> s;
@@ -158,12 +152,7 @@ Divided divided(const Strip& strip, const Strands& strands, const StrandLine& li
   };
   if (out.own_image) {
     const std::vector<double> lower = between(strip.s[begin], middle), upper = between(middle, strip.s[end]);
-    const auto weight = [&](const std::vector<double>& half) {  // as Strands does
-      const auto touches =
-          std::count_if(half.begin(), half.end(), [&](double s) { return strand_presses(strip, s); });
-      return std::pair(touches, half.size());
-    };
-    out.by_first = weight(lower) >= weight(upper);
+    out.by_first = lower.size() >= upper.size();
     out.s = out.by_first ? lower : upper;
     out.s.insert(out.s.begin(), out.by_first ? strip.s[begin] : middle);
     out.s.push_back(out.by_first ? middle : strip.s[end]);
@@ -187,6 +176,12 @@ double clear_of(const Strip& strip, double s) {
   for (const double at : strip.s)
     if (std::abs(s - at) < clear) return s < at ? at - clear : at + clear;
   return s;
+}
+
+/// Does another strand press where a joint of a strip is?
+bool strand_presses(const Strip& strip, double s) {
+  const auto at = std::find(strip.s.begin(), strip.s.end(), s);
+  return at != strip.s.end() && strip.on[static_cast<std::size_t>(at - strip.s.begin())].strand != 0;
 }
 
 /// Lays the touches of lines on a strip. Between the same two joints of a strand all lines have theirs at the same places; where
