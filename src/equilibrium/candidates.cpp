@@ -285,6 +285,23 @@ std::vector<Successor> after_skeleton(const ContactEvent& event, const Profile& 
   return out;
 }
 
+/// The touches of lines laid anew, a line with the own image open about its middle where that is why.
+std::vector<Successor> laid_anew(const LaidAnew& here, const Profile& profile, const Topology& topology,
+                                 const Strip& strip) {
+  std::vector<Successor> out;
+  if (here.middle >= 0)
+    out = line_opens_about(here.middle, here.begin + here.end - here.middle, profile, topology, strip);
+  out.push_back(with_touches(skeleton_of(strip).strip.successor(), profile, topology));
+  return out;
+}
+
+/// Do strands meet where a line of theirs is open about its middle?
+bool opens_line(const ContactEvent& event, const Topology& topology) {
+  const chain::Strands strands(topology);
+  const chain::Strands::Facing* facing = strands.facing(event.place, event.other, event.mirrored);
+  return facing && strands.opened_middle(*facing);
+}
+
 /// Are the joints about a place where they were, but for what is little next to the distance between them?
 bool alike(const Successor& next, const Strip& strip, double s) {
   constexpr double about = 0.05, little = 0.1;
@@ -315,8 +332,8 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
     case Kind::length:
       if (profile.pieces[event.place].stretch == Stretch::tail) return {end_of_rod(strip)};
       if (const auto flat = flat_line_begins_or_ends(event.place, profile, strip)) return {*flat};
-      if (event.redrawn && laid_anew_at(chain::Strands(topology), event.place))
-        return {with_touches(skeleton_of(strip).strip.successor(), profile, topology)};
+      if (const auto anew = laid_anew_at(chain::Strands(topology), event.place); anew && event.redrawn)
+        return laid_anew(*anew, profile, topology, strip);
       if (const auto fewer = line_with_fewer_touches(profile, topology, event.place, strip)) return {*fewer};
       return after_skeleton(event, profile, topology, strip);
     case Kind::force:
@@ -350,7 +367,7 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
     case Kind::reaction:
       return strand_lifts(event.place, strip);
     case Kind::approach:
-      if (event.redrawn) {
+      if (event.redrawn && !opens_line(event, topology)) {
         return {*line_with_more_touches(event, profile, topology, strip),
                 *line_filled(event, profile, topology, strip)};
       }
