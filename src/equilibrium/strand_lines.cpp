@@ -109,6 +109,7 @@ Successor laid_anew(const StrandLine& line, Strip strip, const Monitor& monitor,
     lay(line.first, false);
     lay(line.second, true);
   }
+  measure_parts(strip);
   return strip.successor();
 }
 
@@ -144,17 +145,19 @@ int unite(const Strands::Facing& here, Strip& strip) {
 
 void measure_parts(Strip& strip) {
   constexpr double inside = 1e-6;  // at a place that it shares with an end
+  const Topology topology = strip.successor().topology;
+  const Strands strands(topology);
   const int count = static_cast<int>(strip.s.size());
-  const auto located = [&](int j) {  // in the middle of a line with the own image, too
-    return strip.on[j].part == 0.0 || (strip.on[j].line != 0 && partner(strip, j) == j);
-  };
-  std::vector<int> bounds;
-  for (int j = 0; j < count; ++j)
-    if (j == 0 || j + 1 == count || located(j)) bounds.push_back(j);
-  for (std::size_t k = 0; k + 1 < bounds.size(); ++k) {
-    const double begin = strip.s[bounds[k]], length = strip.s[bounds[k + 1]] - begin;
-    for (int j = bounds[k] + 1; j < bounds[k + 1]; ++j)
-      strip.on[j].part = std::clamp((strip.s[j] - begin) / length, inside, 1.0 - inside);
+  for (int j = 1; j + 1 < count; ++j) {
+    chain::Seat& seat = strip.on[j];
+    if (!strands.inside_line(j)) {
+      seat.part = 0.0;  // was inside one that ends here now
+      continue;
+    }
+    if (strands.located(j)) continue;
+    const auto [first, last] = strands.between(j);
+    const double begin = strip.s[first], length = strip.s[last] - begin;
+    seat.part = std::clamp((strip.s[j] - begin) / length, inside, 1.0 - inside);
   }
 }
 
