@@ -32,6 +32,7 @@ void Walker::start() {
     return lose("no solution at the start: " + failure);
   // On a fold or branch point both are rounding.
   constexpr double vertical = 1e-6;
+  forget_rounded_signs(true);  // it may be the point of an event
   const bool singular = on_singular || std::abs(state_.tangent.p) < vertical * options_.parameter_scale;
   if (singular) state_.index = -1, state_.complex_index = state_.determinant = 0;
   state_.points = 1;

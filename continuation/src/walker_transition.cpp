@@ -283,12 +283,7 @@ bool Walker::enter(const Transition& transition, int direction, const std::strin
         // roundoff. Those that are not, or may have either sign, are known from here on.
         state_.signs.clear();
         settle(segment, *sample);
-        const double zero = 1e4 * options_.event_zero;
-        std::erase_if(state_.signs, [&](const auto& sign) {
-          return std::none_of(state_.events.begin(), state_.events.end(), [&](const EventFunction& event) {
-            return (event.passes || event.value > zero) && event.name == sign.first;
-          });
-        });
+        forget_rounded_signs(false);
         state_.mesh_changed = true;
         state_.previous_tangent = state_.tangent;
         // A short first step separates the zero just passed from the next event.
@@ -302,6 +297,18 @@ bool Walker::enter(const Transition& transition, int direction, const std::strin
     }
   }
   return false;
+}
+
+// A function that is zero up to rounding at the point of an event has no sign there, unless it may have either.
+// @param negative  those that are negative beyond rounding have theirs: not so where they are still to be passed
+void Walker::forget_rounded_signs(bool negative) {
+  const double zero = 1e4 * options_.event_zero;
+  std::erase_if(state_.signs, [&](const auto& sign) {
+    return std::none_of(state_.events.begin(), state_.events.end(), [&](const EventFunction& event) {
+      const bool known = event.passes || event.value > zero || (negative && event.value < -zero);
+      return known && event.name == sign.first;
+    });
+  });
 }
 
 bool Walker::valid_direction(const std::shared_ptr<Problem>& problem, const Vector& x, const Vector& p,

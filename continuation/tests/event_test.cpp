@@ -167,6 +167,31 @@ BOOST_AUTO_TEST_CASE(branch_may_turn_back_at_an_event) {
   BOOST_TEST(std::abs(points.back().x[0] - 2.0) < 1e-10);
 }
 
+// A walk that begins at an event, where the function that vanishes is rounding of either sign, leaves it to the valid side.
+BOOST_AUTO_TEST_CASE(a_walk_may_begin_at_an_event) {
+  for (const double rounding : {1e-10, -1e-10, 0.0}) {
+    auto problem = scalar([](double x, const Vector& p) { return x - p[0]; });
+    problem->events_of = [&](const Vector& x, const Vector&) {
+      return std::vector<EventFunction>{{"force", x[0] - 0.5 + rounding}};
+    };
+    problem->transition_of = [](std::size_t, const Vector&, const Vector&) {
+      return std::optional(Transition{nullptr, {}, "contact", "none", {}});
+    };
+    Options options;
+    options.lower = 0.0;
+    options.upper = 1.0;
+    for (const int direction : {1, -1}) {
+      options.direction = direction;
+      Walker walker(problem, vector({0.5}), vector({0.5}), options);
+      const auto points = walk(walker);
+      BOOST_TEST_CONTEXT("rounding " << rounding << ", direction " << direction) {
+        BOOST_TEST((walker.end().kind == (direction > 0 ? End::Kind::bound : End::Kind::event)));
+        BOOST_TEST(std::abs(points.back().p[0] - (direction > 0 ? 1.0 : 0.5)) < 1e-9);
+      }
+    }
+  }
+}
+
 // An event is known to its precision: a stop value within that is met there, from both sides, and not passed by.
 BOOST_AUTO_TEST_CASE(a_stop_value_at_an_event_is_met) {
   for (const double off : {0.0, 1e-15, -1e-15, 1e-12, -1e-12, 1e-8, -1e-8}) {

@@ -151,7 +151,9 @@ void Strands::face(const std::vector<int>& touches) {
         });
     if (follows == touches.end()) continue;
     const int next = *follows, b = partner_[next];
-    if (line_of_[j] >= 0 && line_of_[j] == line_of_[next]) continue;
+    // Of a line that has opened about its middle what is between the two halves is none of it.
+    const bool middle = a == next && line_of_[j] >= 0 && !lines_[line_of_[j]].own_image();
+    if (line_of_[j] >= 0 && line_of_[j] == line_of_[next] && !middle) continue;
     if (std::min(a, b) < j) continue;  // found from the other strand
     const bool parted = std::any_of(touches.begin(), touches.end(),
                                     [&](int t) { return within(t, j, next) && within(partner_[t], a, b); });

@@ -158,22 +158,20 @@ Variation::Doubt Variation::doubt() const {
   constexpr double close = 1e-8;  // of the largest: an eigenvalue of the block is not yet one of K
   constexpr double elimination =
       16.0;  // times the rounding of a quotient; 4 was seen, in long loops of struts
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(condensed_);
-  const double largest = eigen.eigenvalues().cwiseAbs().maxCoeff();
-  Doubt out{condensed_negative_ + static_cast<int>((eigen.eigenvalues().array() < 0.0).count())};
+  const SmallEigenvalues small = small_eigenvalues(condensed_, close);
+  Doubt out{condensed_negative_ + small.negative};
   VectorXd motion(size_);
-  for (Eigen::Index k = 0; k < condensed_.rows(); ++k) {
-    const double value = eigen.eigenvalues()(k);
-    if (std::abs(value) > close * largest) continue;
+  for (Eigen::Index k = 0; k < small.values.size(); ++k) {
+    const double value = small.values(k);
     // A touch that shifts, and with it its place on the obstacle and its frame: the sign is its force's, which has an
     // event of its own.
     constexpr double mostly = 0.2;
     double shift = 0.0;
     for (const Eigen::Index row : locations_)
-      if (row >= 0) shift += std::pow(eigen.eigenvectors()(row, k), 2);
+      if (row >= 0) shift += std::pow(small.vectors(row, k), 2);
     if (shift > mostly) continue;
     motion.setZero();
-    expand(eigen.eigenvectors().col(k), motion);
+    expand(small.vectors.col(k), motion);
     const double weight = rotations(motion).squaredNorm();
     if (!(std::abs(value) <= elimination * quotient(motion).rounding * weight)) continue;
     ++out.rounded;

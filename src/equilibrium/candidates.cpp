@@ -180,27 +180,34 @@ bool slightly_bowed(const Profile& profile, int gap, double height) {
   return false;
 }
 
+/// A gap that lies on the obstacle of its ends all along closes as a whole, whichever is seen first, a touch's curvature or a
+/// place of it below the surface. Nothing for others.
+std::vector<Successor> closed_whole(int gap, int obstacle, const Strip& strip, const Profile& profile) {
+  double widest = 0.0;
+  for (Eigen::Index k = 0; k < profile.pieces[gap].s.size(); ++k)
+    widest = std::max(widest, std::abs(profile.obstacles[obstacle].gap(profile.pieces[gap].r.col(k))));
+  if (widest > 1e-5 && !slightly_bowed(profile, gap, widest)) return {};
+  std::vector<Successor> out;
+  // Two touches that meet become one. Their curvature vanishes with the gap.
+  constexpr double shortest = 0.05;
+  const bool before = strip.is_line(gap - 1), after = strip.is_line(gap + 1);
+  Strip met = strip;
+  if (!before && !after && strip.s[gap + 1] - strip.s[gap] < shortest && met.collapse(gap))
+    out.push_back(met.successor());
+  Strip closed = strip;
+  closed.merge(before ? gap - 1 : gap, after ? gap + 1 : gap, Stretch::line);
+  out.push_back(closed.successor());
+  return out;
+}
+
 std::vector<Successor> after_curvature(const ContactEvent& event, const Strip& strip,
                                        const Profile& profile) {
   std::vector<Successor> out;
   const int j = event.place;
-  // A neighbouring gap that lies on the cylinder all along closes as a whole.
   for (const int i : {j - 1, j}) {
     if (i < 0 || strip.parts[i].kind != Stretch::gap) continue;
-    double widest = 0.0;
-    for (Eigen::Index k = 0; k < profile.pieces[i].s.size(); ++k)
-      widest =
-          std::max(widest, std::abs(profile.obstacles[strip.on[j].obstacle].gap(profile.pieces[i].r.col(k))));
-    if (widest > 1e-5 && !slightly_bowed(profile, i, widest)) continue;
-    // Two touches that meet become one. Their curvature vanishes with the gap, whichever is seen first.
-    constexpr double shortest = 0.05;
-    Strip met = strip;
-    if (!strip.is_line(i - 1) && !strip.is_line(i + 1) && strip.s[i + 1] - strip.s[i] < shortest &&
-        met.collapse(i))
-      out.push_back(met.successor());
-    Strip closed = strip;
-    closed.merge(strip.is_line(i - 1) ? i - 1 : i, strip.is_line(i + 1) ? i + 1 : i, Stretch::line);
-    out.push_back(closed.successor());
+    for (Successor& closed : closed_whole(i, strip.on[j].obstacle, strip, profile))
+      out.push_back(std::move(closed));
   }
   // The touch flattens to a line, or where a line would pull (under low tension) comes apart into two.
   const auto widen = [&](std::initializer_list<double> lengths) {
@@ -214,19 +221,26 @@ std::vector<Successor> after_curvature(const ContactEvent& event, const Strip& s
   return out;
 }
 
-std::vector<Successor> after_graze(const ContactEvent& event, Strip strip) {
+std::vector<Successor> after_graze(const ContactEvent& event, const Strip& strip, const Profile& profile) {
   const int i = event.place;
+  Strip touched = strip;
   if (!strip.mid_touch && strip.starts_at_mid(i) && std::abs(event.s) < 1e-9) {
-    strip.mid_touch = true;
-    strip.on[0] = {event.obstacle};
-    return {strip.successor()};
+    touched.mid_touch = true;
+    touched.on[0] = {event.obstacle};
+  } else {
+    chain::Seat seat{event.obstacle};
+    for (const int joint : {i, i + 1})  // a rod that lies flat in a plate stays there
+      if (!strip.is_line(joint - 1) && !strip.is_line(joint))
+        seat.flat = std::max(seat.flat, strip.on[joint].flat);
+    touched.cut(i, event.s, seat);
   }
-  chain::Seat seat{event.obstacle};
-  for (const int joint : {i, i + 1})  // a rod that lies flat in a plate stays there
-    if (!strip.is_line(joint - 1) && !strip.is_line(joint))
-      seat.flat = std::max(seat.flat, strip.on[joint].flat);
-  strip.cut(i, event.s, seat);
-  return {strip.successor()};
+  std::vector<Successor> out{touched.successor()};
+  const bool ends_there = strip.on[i + 1].obstacle == event.obstacle &&
+                          (strip.starts_at_mid(i) || strip.on[i].obstacle == event.obstacle);
+  if (strip.parts[i].kind == Stretch::gap && ends_there)
+    for (Successor& closed : closed_whole(i, event.obstacle, strip, profile))
+      out.push_back(std::move(closed));
+  return out;
 }
 
 /// What touches at the rod's end need not be tangent there: another mechanics.
@@ -271,6 +285,23 @@ std::vector<Successor> after_skeleton(const ContactEvent& event, const Profile& 
   return out;
 }
 
+/// The touches of lines laid anew, a line with the own image open about its middle where that is why.
+std::vector<Successor> laid_anew(const LaidAnew& here, const Profile& profile, const Topology& topology,
+                                 const Strip& strip) {
+  std::vector<Successor> out;
+  if (here.middle >= 0)
+    out = line_opens_about(here.middle, here.begin + here.end - here.middle, profile, topology, strip);
+  out.push_back(with_touches(skeleton_of(strip).strip.successor(), profile, topology));
+  return out;
+}
+
+/// Do strands meet where a line of theirs is open about its middle?
+bool opens_line(const ContactEvent& event, const Topology& topology) {
+  const chain::Strands strands(topology);
+  const chain::Strands::Facing* facing = strands.facing(event.place, event.other, event.mirrored);
+  return facing && strands.opened_middle(*facing);
+}
+
 /// Are the joints about a place where they were, but for what is little next to the distance between them?
 bool alike(const Successor& next, const Strip& strip, double s) {
   constexpr double about = 0.05, little = 0.1;
@@ -301,8 +332,8 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
     case Kind::length:
       if (profile.pieces[event.place].stretch == Stretch::tail) return {end_of_rod(strip)};
       if (const auto flat = flat_line_begins_or_ends(event.place, profile, strip)) return {*flat};
-      if (event.redrawn && laid_anew_at(chain::Strands(topology), event.place))
-        return {with_touches(skeleton_of(strip).strip.successor(), profile, topology)};
+      if (const auto anew = laid_anew_at(chain::Strands(topology), event.place); anew && event.redrawn)
+        return laid_anew(*anew, profile, topology, strip);
       if (const auto fewer = line_with_fewer_touches(profile, topology, event.place, strip)) return {*fewer};
       return after_skeleton(event, profile, topology, strip);
     case Kind::force:
@@ -330,13 +361,13 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
       }
       return after_curvature(event, strip, profile);
     case Kind::graze:
-      return after_graze(event, strip);
+      return after_graze(event, strip, profile);
     case Kind::buckling:
       return {bowed(event.place, strip)};
     case Kind::reaction:
       return strand_lifts(event.place, strip);
     case Kind::approach:
-      if (event.redrawn) {
+      if (event.redrawn && !opens_line(event, topology)) {
         return {*line_with_more_touches(event, profile, topology, strip),
                 *line_filled(event, profile, topology, strip)};
       }

@@ -282,8 +282,11 @@ std::vector<ContactEvent> approach_events(const Profile& profile, const Topology
       event.redrawn = true;
     }
     if (const auto* faced = strands.facing(near.link, near.other, near.mirrored);
-        faced && faced->line < 0 && (strands.line_of(faced->begin) >= 0 || strands.line_of(faced->end) >= 0))
+        faced && faced->line < 0 &&
+        (strands.line_of(faced->begin) >= 0 || strands.line_of(faced->end) >= 0)) {
       event.value += carried_between_strands;  // as in the line beside it
+      event.redrawn = strands.opened_middle(*faced);
+    }
     const auto same = std::find_if(events.begin(), events.end(), [&](const ContactEvent& other) {
       return other.named == event.named && other.named_other == event.named_other &&
              other.mirrored == event.mirrored;

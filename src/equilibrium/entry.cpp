@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "windlass/equilibrium/opening.hpp"
 #include "windlass/equilibrium/start.hpp"
 
 namespace windlass::equilibrium {
@@ -128,7 +129,11 @@ Entry draft(const RodProblem& from, const Successor& next, const chain::Profile&
     kept.sliding_reference = before_it.sliding_reference;
   }
   problem->remember(kept);
-  const Vector guess = chain::guess_state(problem->chain(), next.topology, problem->rod(), shape, next.s);
+  Vector guess = chain::guess_state(problem->chain(), next.topology, problem->rod(), shape, next.s);
+  if (!next.held.empty()) {
+    Vector settled = guess;
+    if (tried([&] { return settle_about(*problem, settled, p, next.held); })) guess = settled;
+  }
   return {problem, guess, p};
 }
 

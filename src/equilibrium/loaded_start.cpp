@@ -4,6 +4,7 @@
 
 #include "attempt.hpp"
 #include "windlass/equilibrium/equilibria.hpp"
+#include "windlass/rod/quaternion.hpp"
 #include "windlass/scene/keys.hpp"
 
 namespace windlass::equilibrium {

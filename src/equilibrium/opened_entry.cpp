@@ -18,7 +18,9 @@ double length_of(Entry& entry, int link) {
 void adjust_length(Entry& entry, int link) {
   // Where a line between strands begins, its two touches can hardly be told from one, as those of a gap between two.
   const chain::Topology& topology = entry.problem->topology();
-  const bool line = chain::Strands(topology).along(link), strand = !line && topology.beside_strand(link);
+  const chain::Strands strands(topology);
+  const bool line = strands.along(link) && strands.line_of(link) == strands.line_of(link + 1),
+             strand = !line && topology.beside_strand(link);
   const double factor = strand ? 4.0 : 1.5;
   const chain::Chain& chain = entry.problem->chain();
   const auto is_touch = [&](int joint) { return chain.joint(joint).kind() == contact::JointKind::touch; };

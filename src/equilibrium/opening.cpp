@@ -36,21 +36,26 @@ bool finds_place(const chain::Chain& chain, int joint) {
 
 /// One slack an edge or touch stands in for the condition of its place, and its arclength does not move: as many unknowns as
 /// rows. Where sliding is held, the outermost contacts' mean place is given already: one of the two is left to that.
-Borders hold_edges(const chain::Chain& chain, const std::vector<int>& opened) {
+Borders hold(const chain::Chain& chain, std::vector<int> joints) {
+  std::sort(joints.begin(), joints.end());
+  joints.erase(std::unique(joints.begin(), joints.end()), joints.end());
+  double shares = 0.0;
+  for (const int joint : joints) shares += chain.slide_share(joint);
+  if (chain.holds_slide() && !chain.slides() && shares == 1.0) joints.pop_back();
+  Borders held = borders(chain.size(), static_cast<Eigen::Index>(joints.size()));
+  for (std::size_t k = 0; k < joints.size(); ++k)
+    held.c(chain.arclength_row(joints[k]), static_cast<Eigen::Index>(k)) = 1.0;
+  held.psi = held.c;
+  return held;
+}
+
+/// Those at the ends of opened links that find their places.
+std::vector<int> edges_of(const chain::Chain& chain, const std::vector<int>& opened) {
   std::vector<int> edges;
   for (const int link : opened)
     for (const int joint : {link, link + 1})
       if (finds_place(chain, joint)) edges.push_back(joint);
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  double shares = 0.0;
-  for (const int joint : edges) shares += chain.slide_share(joint);
-  if (chain.holds_slide() && !chain.slides() && shares == 1.0) edges.pop_back();
-  Borders held = borders(chain.size(), static_cast<Eigen::Index>(edges.size()));
-  for (std::size_t k = 0; k < edges.size(); ++k)
-    held.c(chain.arclength_row(edges[k]), static_cast<Eigen::Index>(k)) = 1.0;
-  held.psi = held.c;
-  return held;
+  return edges;
 }
 
 /// p(0) is one more unknown, `change` of the link's length one more equation.
@@ -182,7 +187,11 @@ bool enter_bowed(RodProblem& problem, Vector& x, Vector& p, int link) {
 bool settle_shape(RodProblem& problem, Vector& x, const Vector& p, const std::vector<int>& opened) {
   std::vector<int> links = short_gaps(problem, x, p);
   links.insert(links.end(), opened.begin(), opened.end());
-  const Borders held = hold_edges(problem.chain(), links);
+  return settle_about(problem, x, p, edges_of(problem.chain(), links));
+}
+
+bool settle_about(RodProblem& problem, Vector& x, const Vector& p, const std::vector<int>& joints) {
+  const Borders held = hold(problem.chain(), joints);
   Iterate iterate = iterate_of(problem, x, p, held);
   constexpr int most = 5;  // the last one is not taken: a start for what follows, no solution
   const continuation::CorrectorReport report = solve_cut(problem, held, iterate, most);

@@ -83,11 +83,11 @@ std::optional<LaidAnew> laid_anew_at(const chain::Strands& strands, int link) {
     return LaidAnew{begin, end, press_at_end};
   for (const auto& [at, other] : {std::pair(begin, end), std::pair(end, begin)})
     if (found_by_tangency(strands, at) && strands.line_of(other) != strands.line_of(at))
-      return LaidAnew{begin, end, at_middle};
+      return LaidAnew{begin, end, at_middle, at};
   for (const auto& [at, other] : {std::pair(link, link + 1), std::pair(link + 1, link)})
     if (found_by_tangency(strands, at) && !strands.inside_line(other) &&
         strands.line_of(other) != strands.line_of(at))
-      return LaidAnew{link, link + 1, at_middle};
+      return LaidAnew{link, link + 1, at_touch};
   return std::nullopt;
 }
 

@@ -19,15 +19,17 @@ double nearer_between_touches(const chain::Profile& profile, const chain::Topolo
 /// What is pressed on right before the end of a line has no touch there: the end itself takes it. From the second distance on it is laid
 /// without, at the first it is laid with one: F d²/3B of the rod's height over a span to the next touch is below what is carried [ρ].
 inline constexpr double press_apart = 6e-4, press_at_end = 4e-4;
-/// The same of the middle of a line between a strand and its own image, and of touches beyond it, which an edge, or what else
-/// locates itself, comes near [ρ].
-inline constexpr double apart_from_middle = 2e-3, at_middle = 1e-3;
+/// The middle of a line between a strand and its own image, which an edge, or what else locates itself, comes near: between the edge's
+/// place and its image the pulls of both open the line, by more than it carries. It is laid from the first distance on; and touches
+/// beyond the middle that come near such a joint [ρ].
+inline constexpr double apart_from_middle = 5.2e-3, at_middle = 4.5e-3, at_touch = 5e-4;
 
 /// Length at which what a link is of, [begin, end] as joints, has the touches of its lines laid anew; nullopt: it is passed, or none of
 /// these.
 struct LaidAnew {
   int begin, end;
   double least;
+  int middle = -1;  ///< joint of a line with the own image, where it is that
 };
 std::optional<LaidAnew> laid_anew_at(const chain::Strands& strands, int link);
 

@@ -185,8 +185,8 @@ std::optional<Successor> line_with_next(int joint, const chain::Profile& profile
   };
   for (const int link : {joint - 1, joint})
     for (const Strands::Facing& f : strands.facing(std::max(link, 0))) {
-      const bool of_line = f.line >= 0 || strands.line_of(f.begin) >= 0 || strands.line_of(f.end) >= 0;
-      if (of_line || !overlaps(f.begin) || !overlaps(f.end)) continue;
+      const bool joins = strands.line_of(f.begin) >= 0 || strands.line_of(f.end) >= 0;  // see line_joins()
+      if (f.line >= 0 || joins || !overlaps(f.begin) || !overlaps(f.end)) continue;
       mark_line(strip, {f.begin, f.end}, {f.other_begin, f.other_end}, f.begin == f.other_begin,
                 new_strand(strip));
       return strip.successor();
@@ -362,6 +362,29 @@ std::optional<Successor> line_opens(int joint, const Topology& topology, Strip s
   take_out(joint, strip);
   measure_parts(strip);
   return strip.successor();
+}
+
+std::vector<Successor> line_opens_about(int middle, int other, const chain::Profile& profile,
+                                        const Topology& topology, const Strip& strip) {
+  const Strands strands(topology);
+  const StrandLine& line = strands.lines()[strands.line_of(middle)];
+  std::vector<Successor> out;
+  for (const double clear : {0.015, 0.01, 0.02}) {
+    const double apart = std::abs(strip.s[other] - strip.s[middle]) + clear * profile.unit_length;
+    const auto is_clear = [&](int j) { return strip.s[j] < strip.s[middle] - apart; };
+    const auto inner = std::find_if_not(line.first.begin(), line.first.end(), is_clear);
+    if (inner - line.first.begin() < 2) continue;
+    const int low = *(inner - 1), high = strands.partner(low);
+    Strip open = strip;
+    for (const int joint : {low, high}) open.on[joint].part = 0.0;
+    for (const int joint : line.first)
+      if (strip.s[joint] >= strip.s[high]) open.on[joint].line = -open.on[joint].line;
+    out.push_back(with_touches(skeleton_of(open).strip.successor(), profile, topology));
+    for (std::size_t j = 0; j < out.back().s.size(); ++j)
+      if (out.back().s[j] == strip.s[low] || out.back().s[j] == strip.s[high])
+        out.back().held.push_back(static_cast<int>(j));
+  }
+  return out;
 }
 
 std::optional<Successor> line_with_fewer_touches(const chain::Profile& profile, const Topology& topology,

@@ -67,6 +67,11 @@ void measure_parts(Strip& strip);
 /// A touch of a line between free strands pulls: the line opens there, and ends at the touches beside. nullopt: it is in none.
 std::optional<Successor> line_opens(int joint, const chain::Topology& topology, Strip strip);
 
+/// A line between a strand and its image, with its touches laid anew, open about the middle, which an edge or another touch has come
+/// near. @param other  that joint. Nothing where little is left of the line
+std::vector<Successor> line_opens_about(int middle, int other, const chain::Profile& profile,
+                                        const chain::Topology& topology, const Strip& strip);
+
 /// A line between strands that `link` belongs to, with fewer or more touches; nothing where there is none, or no touch inside.
 std::optional<Successor> line_with_fewer_touches(const chain::Profile& profile,
                                                  const chain::Topology& topology, int link,

@@ -103,6 +103,7 @@ class Walker {
   static Sample* solution_at(Segment& segment, double value, const Sample& lo, const Sample& hi);
   void stop_before_entry(double met, double event, double precision);
   bool walk_back_to(double stop);
+  void forget_rounded_signs(bool negative);
   bool enter(const Transition& transition, int direction, const std::string& passed, std::string& failure);
   bool valid_direction(const std::shared_ptr<Problem>& problem, const Vector& x, const Vector& p,
                        const Tangent& tangent, const std::string& passed);

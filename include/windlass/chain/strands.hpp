@@ -58,6 +58,11 @@ class Strands {
     bool image;
     int line;  ///< place among the lines; −1: of none
   };
+  /// What has opened about the middle of a line between a strand and its own image?
+  bool opened_middle(const Facing& facing) const {
+    const int line = facing.line < 0 ? line_of_[facing.begin] : -1;
+    return line >= 0 && line == line_of_[facing.end] && partner_[facing.begin] == facing.end;
+  }
   /// All that a link belongs to.
   const std::vector<Facing>& facing(int link) const { return facing_[link]; }
   /// The one with a link of the other strand; nullptr: there is none.

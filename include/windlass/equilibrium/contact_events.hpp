@@ -99,9 +99,11 @@ std::vector<int> vanished_beside_strands(const std::vector<ContactEvent>& events
 /// A topology with the arclengths of its joints, to be filled from the old profile.
 struct Successor {
   chain::Topology topology;
-  std::vector<double> s;      ///< one a joint of the new chain
-  std::vector<int> source;    ///< link of the old chain whose mesh each new arc inherits
-  std::vector<int> opened;    ///< links that have no length at the event itself
+  std::vector<double> s;    ///< one a joint of the new chain
+  std::vector<int> source;  ///< link of the old chain whose mesh each new arc inherits
+  std::vector<int> opened;  ///< links that have no length at the event itself
+  std::vector<int> held =
+      {};  ///< ends of lines between strands that are known by guess only: the shape adjusts to them first
   int bowed = -1;             ///< link that has no bow at the event itself, −1: none
   bool nothing_left = false;  ///< no contact remains: the branch ends
   bool at_end = false;        ///< a contact has reached the rod's end, no tail remains: the branch ends

@@ -49,6 +49,9 @@ Limit<Value> limit_at_zero(std::array<Value, levels> values) {
 /// @returns false where the matrix has no inverse or a length or tension leaves its domain
 bool settle_shape(RodProblem& problem, Vector& x, const Vector& p, const std::vector<int>& opened);
 
+/// The same while these joints, edges, touches or ends of lines between strands, stay where they are.
+bool settle_about(RodProblem& problem, Vector& x, const Vector& p, const std::vector<int>& joints);
+
 /// Solves for the state at p, with steps cut where an arc would lose more than half its length.
 /// @returns whether Newton converged; x is the solution then, and unspecified otherwise
 bool solve_in_place(RodProblem& problem, Vector& x, const Vector& p);

@@ -51,6 +51,21 @@ BOOST_AUTO_TEST_CASE(a_line_with_the_own_image) {
   BOOST_TEST(!whole.lines()[0].image);
 }
 
+BOOST_AUTO_TEST_CASE(a_line_with_the_own_image_that_is_open_about_its_middle) {
+  // Joints 1, 2 and their images 5, 4: the halves of what was a line; an edge (3) in the gap between them, which is its own image.
+  const Topology t = of({{0, 1, 0.0, 7}, {0, 2, 0.0, 7}, {0}, {0, -2, 0.0, -7}, {0, -1, 0.0, -7}});
+  const Strands s(t);
+  BOOST_REQUIRE(s.lines().size() == 1U);
+  BOOST_TEST(!s.lines()[0].own_image());
+  const Strands::Facing* gap = s.facing(2, 3, true);
+  BOOST_REQUIRE(gap != nullptr);
+  BOOST_TEST(gap->line == -1);
+  BOOST_TEST(s.opened_middle(*gap));
+  BOOST_TEST(!s.along(2));
+  BOOST_REQUIRE(s.facing(1, 4, true) != nullptr);
+  BOOST_TEST(!s.opened_middle(*s.facing(1, 4, true)));  // the line itself
+}
+
 BOOST_AUTO_TEST_CASE(an_edge_and_a_touch_with_another_strand_inside_a_line) {
   // A strand (1, 2, 3) on another (5, 8, 9): between 5 and 8 there are an edge (6) and a touch (7) with a third strand (4).
   const Topology t = of({{0, 1, 0.0, 9},
