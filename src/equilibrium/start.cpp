@@ -66,7 +66,7 @@ std::optional<Started> thick_coil(const scene::Scene& scene, bool half, const st
     try {
       const std::optional<Started> flat = followed_coil(thin, true, true, in, failure);
       return flat ? thicken(*flat, at, as_half, in, failure) : std::nullopt;
-    } catch (const NoContact& lifted) {  // the flat one does; a coil whose strands press on each other may stay
+    } catch (const NoContact& lifted) {  // the flat one: strands that press on each other may stay
       failure = lifted.what();
       return std::nullopt;
     }
