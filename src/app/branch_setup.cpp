@@ -6,6 +6,7 @@
 #include "app/stored_point.hpp"
 #include "windlass/equilibrium/opening.hpp"
 #include "windlass/equilibrium/record.hpp"
+#include "windlass/equilibrium/search.hpp"
 #include "windlass/scene/error.hpp"
 #include "windlass/scene/keys.hpp"
 #include "windlass/scene/units.hpp"
@@ -72,6 +73,25 @@ equilibrium::Started beside(equilibrium::Started at, int direction) {
   throw equilibrium::NoEquilibrium("no state was found beside the singular point");
 }
 
+/// From nothing. A thick coil of low tension has several states, and what is found first may be unstable or nothing: there
+/// branches start where `solve` ends.
+equilibrium::Started found_first(const scene::Scene& scene, const std::vector<std::string>& keys) {
+  const bool thick_coil =
+      scene.has_cylinder && scene.strand_radius() > 0.0 && !scene.knot.tied() && !scene.slides();
+  const auto cold = [&] {
+    return equilibrium::cold_start(scene, needs_space(scene), scene.half_turn(), keys);
+  };
+  if (!thick_coil || !needs_space(scene)) return cold();
+  try {
+    equilibrium::Started start = cold();
+    if (start.problem->total_index(start.x, start.p) == 0) return start;
+    return equilibrium::stable_state(scene, keys).value_or(start);
+  } catch (const equilibrium::NoEquilibrium&) {
+    if (auto stable = equilibrium::stable_state(scene, keys)) return *stable;
+    throw;
+  }
+}
+
 }  // namespace
 
 BranchSetup set_up_branch(const BranchRequest& request) {
@@ -104,8 +124,7 @@ BranchSetup set_up_branch(const BranchRequest& request) {
 
 equilibrium::Started first_state(const BranchSetup& setup) {
   const std::vector<std::string> keys{setup.key};
-  if (!setup.stored)
-    return equilibrium::cold_start(setup.scene, needs_space(setup.scene), setup.scene.half_turn(), keys);
+  if (!setup.stored) return found_first(setup.scene, keys);
   const auto problem = equilibrium::reopen(setup.scene, *setup.stored, keys);
   equilibrium::Started start{problem, setup.stored->state, problem->parameters(), 0};
   if (setup.singular) return beside(start, setup.options.direction);

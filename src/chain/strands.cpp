@@ -80,10 +80,6 @@ void Strands::find_laid() {
 }
 
 std::array<int, 2> Strands::located_about(int before, int after) const {
-  // In the middle of a line between a strand and its own image tangency does it.
-  const auto located = [&](int j) {
-    return !inside_line(j) || (partner_[j] == j && !lines_[line_of_[j]].on_obstacles);
-  };
   while (!located(before)) --before;
   while (!located(after)) ++after;
   return {before, after};

@@ -105,7 +105,10 @@ void Variation::hold_null(MatrixXd& dense) {
   Eigen::Index nearest = 0;
   const double least = eigen.eigenvalues().cwiseAbs().minCoeff(&nearest);
   const double usual = size_of(eigen.eigenvalues());
-  if (least <= rounding * usual) hold(dense, eigen.eigenvectors().col(nearest), usual);
+  if (least > rounding * usual) return;
+  hold(dense, eigen.eigenvectors().col(nearest), usual);
+  // Forces of touches so near each other that they hold the same: a motion without weight, of infinite eigenvalue.
+  if (!(std::abs(quotient(neutral_motion_).value) <= usual)) neutral_motion_.resize(0);
 }
 
 /// Puts the dense unknowns y into v; its interiors, reduced right sides so far, follow.

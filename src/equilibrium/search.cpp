@@ -141,4 +141,15 @@ Search search(const scene::Scene& asked, bool spatial, bool half, const std::vec
   return found;
 }
 
+std::optional<Started> stable_state(const scene::Scene& asked, const std::vector<std::string>& keys) {
+  const scene::Scene scene = scene::natural(asked);
+  Search found = search(scene, true, scene.half_turn(), {load_key(scene)});
+  if (!found.stable()) return std::nullopt;
+  const Started& best = found.states.front().at;
+  auto problem = std::make_shared<RodProblem>(scene, best.problem->spatial(), best.problem->topology(),
+                                              best.problem->meshes(), keys);
+  Started start{problem, best.x, problem->parameters(), best.newton_iterations};
+  return problem->polish(start.x, start.p) < 0 ? std::nullopt : std::optional(start);
+}
+
 }  // namespace windlass::equilibrium

@@ -63,8 +63,13 @@ std::optional<Started> thick_coil(const scene::Scene& scene, bool half, const st
                              const std::vector<std::string>& in) -> std::optional<Started> {
     scene::Scene thin = at;
     thin.self_contact = false;
-    const std::optional<Started> flat = followed_coil(thin, true, true, in, failure);
-    return flat ? thicken(*flat, at, as_half, in, failure) : std::nullopt;
+    try {
+      const std::optional<Started> flat = followed_coil(thin, true, true, in, failure);
+      return flat ? thicken(*flat, at, as_half, in, failure) : std::nullopt;
+    } catch (const NoContact& lifted) {  // the flat one: strands that press on each other may stay
+      failure = lifted.what();
+      return std::nullopt;
+    }
   };
   if (scene.load.tension <= high || scene.load.angle <= turns_side_by_side)
     if (const auto direct = thickened(scene, half, keys)) return direct;

@@ -109,6 +109,7 @@ Successor laid_anew(const StrandLine& line, Strip strip, const Monitor& monitor,
     lay(line.first, false);
     lay(line.second, true);
   }
+  measure_parts(strip);
   return strip.successor();
 }
 
@@ -120,11 +121,24 @@ void mark_line(Strip& strip, const std::vector<int>& first, const std::vector<in
     for (const int j : second) strip.on[j].line = -line;
 }
 
-/// Touches on both sides of what faces each other, of one line now: what ended a line is inside one. @returns its number
-int unite(const Strands::Facing& here, Strip& strip) {
-  const bool own_image = here.begin == here.other_begin;
-  const int line = new_strand(strip);
+/// A line that others have become: its mark, and whether it is one between a strand and its own image.
+struct United {
+  int line;
+  bool own_image;
+};
+
+/// Touches on both sides of what faces each other, of one line now: what ended a line is inside one.
+United unite(const Strands& strands, const Strands::Facing& here, Strip& strip) {
   std::vector<int> first = {here.begin, here.end}, second = {here.other_begin, here.other_end};
+  bool own_image = here.begin == here.other_begin;
+  for (const int end : {here.begin, here.end, here.other_begin, here.other_end}) {
+    if (strands.line_of(end) < 0) continue;
+    const StrandLine& line = strands.lines()[strands.line_of(end)];
+    own_image = own_image || line.own_image();
+    if (strip.on[end].line == 0)  // on obstacles touches next to each other are a line without a mark
+      mark_line(strip, line.first, line.second, line.own_image(), new_strand(strip));
+  }
+  const int line = new_strand(strip);
   const auto gather = [&](std::vector<int>& side) {
     for (const int end : std::vector<int>(side)) {
       const int old = strip.on[end].line;
@@ -136,25 +150,28 @@ int unite(const Strands::Facing& here, Strip& strip) {
   };
   gather(first);
   gather(second);
+  if (own_image) first.insert(first.end(), second.begin(), second.end());
   mark_line(strip, first, second, own_image, line);
-  return line;
+  return {line, own_image};
 }
 
 }  // namespace
 
 void measure_parts(Strip& strip) {
   constexpr double inside = 1e-6;  // at a place that it shares with an end
+  const Topology topology = strip.successor().topology;
+  const Strands strands(topology);
   const int count = static_cast<int>(strip.s.size());
-  const auto located = [&](int j) {  // in the middle of a line with the own image, too
-    return strip.on[j].part == 0.0 || (strip.on[j].line != 0 && partner(strip, j) == j);
-  };
-  std::vector<int> bounds;
-  for (int j = 0; j < count; ++j)
-    if (j == 0 || j + 1 == count || located(j)) bounds.push_back(j);
-  for (std::size_t k = 0; k + 1 < bounds.size(); ++k) {
-    const double begin = strip.s[bounds[k]], length = strip.s[bounds[k + 1]] - begin;
-    for (int j = bounds[k] + 1; j < bounds[k + 1]; ++j)
-      strip.on[j].part = std::clamp((strip.s[j] - begin) / length, inside, 1.0 - inside);
+  for (int j = 1; j + 1 < count; ++j) {
+    chain::Seat& seat = strip.on[j];
+    if (!strands.inside_line(j)) {
+      seat.part = 0.0;  // was inside one that ends here now
+      continue;
+    }
+    if (strands.located(j)) continue;
+    const auto [first, last] = strands.between(j);
+    const double begin = strip.s[first], length = strip.s[last] - begin;
+    seat.part = std::clamp((strip.s[j] - begin) / length, inside, 1.0 - inside);
   }
 }
 
@@ -187,7 +204,7 @@ std::optional<Successor> line_joins(int joint, const chain::Profile& profile, co
                  line = strands.line_of(f.begin + f.end - joint) >= 0;
       if (f.line >= 0 || !beside || !line || strip.s[f.end] - strip.s[f.begin] > near * profile.unit_length)
         continue;
-      unite(f, strip);
+      unite(strands, f, strip);
       measure_parts(strip);
       return with_touches(skeleton_of(strip).strip.successor(), profile, topology);
     }
@@ -219,8 +236,8 @@ std::optional<Successor> line_closes(const ContactEvent& event, const Topology& 
   const Strands strands(topology);
   const Strands::Facing* f = strands.facing(event.place, event.other, event.mirrored);
   if (!f) return std::nullopt;
-  const int line = unite(*f, strip);
-  add_pair(strip, event.s, event.s_other, event.mirrored, f->begin == f->other_begin, {0, line, 0.5, line});
+  const auto [line, own_image] = unite(strands, *f, strip);
+  add_pair(strip, event.s, event.s_other, event.mirrored, own_image, {0, line, 0.5, line});
   measure_parts(strip);
   return strip.successor();
 }

@@ -118,7 +118,13 @@ std::vector<Successor> successors(const ContactEvent& event, const Profile& prof
       out.push_back(mirrored(next, event.s > 0.0, static_cast<int>(profile.pieces.size())));
     out.push_back(std::move(next));
   }
-  for (Successor& next : out) join_lines(next);
+  for (Successor& next : out) {
+    join_lines(next);
+    if (next.topology.couplings().empty()) continue;
+    Strip strip(next);  // what ends beside a line makes it longer or shorter, too
+    measure_parts(strip);
+    next.topology = strip.successor().topology;
+  }
   return out;
 }
 

@@ -187,6 +187,48 @@ BOOST_AUTO_TEST_CASE(a_run_begins_at_an_event_and_ends_beside_it) {
   }
 }
 
+// A touch of a free strand right behind an edge flattens beside a line and joins it; the line's end then passes the edge.
+BOOST_AUTO_TEST_CASE(a_touch_joins_the_line_beside_it) {
+  const TemporaryFolder folder;
+  const Table up = follow(folder, two_turns, 1.0 / 4.35, 9.4, 9.7);
+  const std::vector<double> found = events(up);
+  BOOST_REQUIRE(found.size() == 2u);
+  BOOST_TEST(found[0] == 9.485389, boost::test_tools::tolerance(1e-6));
+  // Strands 8e-10 nearer than they touch move a line's end by the root of that over their curvature, and this event with it.
+  BOOST_TEST(found[1] == 9.528, boost::test_tools::tolerance(1e-3));
+}
+
+// Two touches 3e-5 apart hold nearly the same: one force between them costs nothing and moves nothing.
+BOOST_AUTO_TEST_CASE(spectra_of_touches_next_to_each_other) {
+  const TemporaryFolder folder;
+  follow(folder, one_turn, 1.0 / 6.0, 9.95, 9.9);
+  const Outcome outcome = run_program({"stability", "run", "--json"}, folder.path());
+  BOOST_TEST(outcome.status == 0, outcome.err);
+  for (const auto& point : nlohmann::json::parse(outcome.out)["points"]) {
+    BOOST_TEST(point.at("index") == 0);
+    BOOST_TEST(point.at("inertia_index") == 0);
+    // The pull's slowest mode, a twist of the tails: the same all along.
+    BOOST_TEST(point.at("eigenvalues")[0].get<double>() == 0.004112, boost::test_tools::tolerance(1e-3));
+  }
+}
+
+// Below T = 0.2839 the thin flat coil lifts off; the thick one stays, and a branch starts in the state that `solve` finds.
+BOOST_AUTO_TEST_CASE(a_branch_starts_where_solve_ends) {
+  constexpr double radius = 2.0 / 7.0;
+  const TemporaryFolder down;
+  const std::vector<double> first = events(follow(down, one_turn, radius, 1.0, 0.1));
+  for (const double tension : {0.2, 0.1}) {
+    const TemporaryFolder up;
+    const Table table = follow(up, one_turn, radius, tension, 1.0);
+    const auto alone = solved(one_turn, radius, {"load.tension=" + std::to_string(tension)});
+    // Two ways to one state: what differs is the error of their meshes.
+    BOOST_TEST(std::stod(table.rows.front().at("R_tot")) == alone.at("R_tot").get<double>(),
+               boost::test_tools::tolerance(1e-10));
+    BOOST_TEST(events(table) == first, boost::test_tools::tolerance(1e-8)
+                                           << boost::test_tools::per_element());
+  }
+}
+
 // A thinner and thinner rod is the thin one: R_tot differs by the square of the radius.
 BOOST_AUTO_TEST_CASE(the_limit_of_a_thin_rod) {
   const double thin = solved(one_turn, 0.0, {"rod.self_contact=false", "load.tension=2"}).at("R_tot");

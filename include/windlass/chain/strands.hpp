@@ -35,6 +35,11 @@ class Strands {
   /// Is it one that is laid at a fixed part of what is between two joints (chain/coupling.hpp)? On its other strand tangency locates
   /// it. Of a line's two strands, or halves, that one is divided on which more joints of other contacts are.
   bool laid(int joint) const { return joint >= 0 && laid_[joint]; }
+  /// Does its own condition find a joint, and not its part of what is between two others? In the middle of a line between a strand
+  /// and its own image tangency does.
+  bool located(int joint) const {
+    return !inside_line(joint) || (partner_[joint] == joint && !lines_[line_of_[joint]].on_obstacles);
+  }
   /// Of a line's two strands, is the first the one that is divided?
   bool divides_first(const StrandLine& line) const;
   /// Is a touch of a line where a contact that is inside none presses on the strand? What of that goes on to the other strand is

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,9 @@ struct Search {
 /// @param half     on half chains where the state is symmetric; else every state on the full chain
 /// @param keys     parameters of the problems returned; the first one is scene's load_key()
 Search search(const scene::Scene& scene, bool spatial, bool half, const std::vector<std::string>& keys);
+
+/// The stable one of lowest potential among them in space, in the scene's units, with other parameters; nullopt: none.
+std::optional<Started> stable_state(const scene::Scene& scene, const std::vector<std::string>& keys);
 
 /// Adds a state that was found otherwise, unless it is there already.
 void include(Search& search, Started state);

@@ -29,7 +29,7 @@ class Proposals : public continuation::DiagramObserver {
     const auto here = std::dynamic_pointer_cast<RodProblem>(point.problem->clone());
     // Events that are located from beyond have the state that follows.
     if (here->topology().text() == point.before) remember(*here, point.x, point.p);
-    propose(point.event);
+    propose(point.event, point.after);
     if (point.next_problem) remember(*point.next_problem, point.next_x, point.next_p);
   }
 
@@ -41,19 +41,30 @@ class Proposals : public continuation::DiagramObserver {
     x_ = x, p_ = p;
   }
 
-  void propose(const std::string& name) {
+  /// @param after  what followed: events that are located from beyond are named by what vanishes there
+  void propose(const std::string& name, const std::string& after) {
     const chain::Profile shape = problem_->profile(x_, p_);
     const chain::Topology& topology = problem_->topology();
-    for (const equilibrium::ContactEvent& event : equilibrium::contact_events(shape, topology)) {
-      if (event.name() != name) continue;
-      text_ += scene_ + ", " + name + ": " + topology.text();
-      for (const equilibrium::Successor& next :
-           equilibrium::successors(event, shape, topology, problem_->joint_places(x_, p_, shape)))
-        text_ += "\n    " + (next.nothing_left ? "no contact" : next.topology.text());
-      text_ += '\n';
+    const std::vector<double> s = problem_->joint_places(x_, p_, shape);
+    const std::vector<equilibrium::ContactEvent> events = equilibrium::contact_events(shape, topology);
+    const equilibrium::ContactEvent* met = nullptr;
+    for (const equilibrium::ContactEvent& event : events) {
+      if (met && met->value <= event.value) continue;
+      const auto all = equilibrium::successors(event, shape, topology, s);
+      if (std::any_of(all.begin(), all.end(),
+                      [&](const auto& next) { return next.topology.text() == after; }))
+        met = &event;
+    }
+    for (const equilibrium::ContactEvent& event : events)
+      if (!met && event.name() == name) met = &event;
+    if (!met) {
+      text_ += scene_ + ", " + name + ": not seen before it\n";
       return;
     }
-    text_ += scene_ + ", " + name + ": not seen before it\n";
+    text_ += scene_ + ", " + met->name() + ": " + topology.text();
+    for (const equilibrium::Successor& next : equilibrium::successors(*met, shape, topology, s))
+      text_ += "\n    " + (next.nothing_left ? "no contact" : next.topology.text());
+    text_ += '\n';
   }
 
   std::string scene_, text_;
