@@ -65,9 +65,7 @@ void RodProblem::let_slide(bool freely) {
 }
 
 bool RodProblem::settle(Vector& x, const Vector& p) {
-  // Of the pulls. Certificates ask 1e-9; what hardly resists sliding goes far for little more than rounding, and next to a turn,
-  // where p cannot be held, along the branch.
-  constexpr double little = 5e-10, nothing = 1e-10;
+  constexpr double nothing = 1e-10;  // of the pulls: below what a certificate asks
   constexpr int most = 12;
   const double tension = loads(p).tension;
   // [rad] In the plane rounding leaves 1e-15. Out of it the turn grows with the square of the way, and an arm
@@ -76,7 +74,7 @@ bool RodProblem::settle(Vector& x, const Vector& p) {
   for (int j = 0; j < chain_->joint_count(); ++j)
     if (std::abs(chain_->joint(j).out_of_clamp(chain_->coordinates(x, j))) > out)
       throw std::domain_error(leaves_clamp);
-  if (std::abs(chain_->holding_force(x)) < little * tension) return false;
+  if (std::abs(chain_->holding_force(x)) < nothing * tension) return false;
   if (chain_->slides()) {
     if (polish(x, p) < 0) throw std::domain_error("the rod slides along itself: nothing balances it here");
     return true;
