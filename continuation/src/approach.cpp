@@ -5,8 +5,6 @@
 #include "continuation/corrector.hpp"
 
 namespace continuation {
-namespace {
-
 Borders fixed_parameter(const Problem& problem, const Options& options) {
   Borders fixed;
   fixed.parameter = options.parameter;
@@ -18,8 +16,6 @@ Borders fixed_parameter(const Problem& problem, const Options& options) {
   fixed.state_scale = options.state_scale;
   return fixed;
 }
-
-}  // namespace
 
 Approach::Approach(Problem& problem, const Vector& guess, const Vector& p, const Options& options)
     : problem_(problem), guess_(guess), p_(p), options_(options) {

@@ -7,6 +7,9 @@
 
 namespace continuation {
 
+/// Borders that hold the parameter where it is.
+Borders fixed_parameter(const Problem& problem, const Options& options);
+
 /// Solves a new problem beside the event that led to it, from the state that was proposed.
 class Approach {
  public:

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "approach.hpp"
 #include "continuation/corrector.hpp"
 #include "continuation/walker.hpp"
 
@@ -28,12 +29,14 @@ void Walker::start() {
   std::string failure;
   // A state that is singular but neither fold nor branch point starts like any other, if it can.
   const bool on_singular = !start_regular(false, failure);
-  if (on_singular && !start_singular() && !start_regular(true, failure))
-    return lose("no solution at the start: " + failure);
-  // On a fold or branch point both are rounding.
+  // On a fold or branch point index and determinant are rounding.
   constexpr double vertical = 1e-6;
+  const auto is_vertical = [&] { return std::abs(state_.tangent.p) < vertical * options_.parameter_scale; };
+  const bool beside = (on_singular || is_vertical()) && start_beside_event();
+  if (on_singular && !beside && !start_singular() && !start_regular(true, failure))
+    return lose("no solution at the start: " + failure);
   forget_rounded_signs(true);  // it may be the point of an event
-  const bool singular = on_singular || std::abs(state_.tangent.p) < vertical * options_.parameter_scale;
+  const bool singular = on_singular || beside || is_vertical();
   if (singular) state_.index = -1, state_.complex_index = state_.determinant = 0;
   state_.points = 1;
   state_.previous_tangent = state_.tangent;
@@ -51,14 +54,7 @@ bool Walker::start_regular(bool anyhow, std::string& failure) {
     Vector x = state_.x;
     Tangent tangent = state_.tangent;
     if (!state_.has_tangent) {
-      Borders fixed;
-      fixed.parameter = options_.parameter;
-      fixed.scale = options_.parameter_scale;
-      fixed.state_scale = options_.state_scale;
-      fixed.psi = Matrix(problem->size(), 0);
-      fixed.c = Matrix::Zero(problem->size(), 1);
-      fixed.d = Matrix::Ones(1, 1);
-      fixed.g = Vector::Zero(1);
+      const Borders fixed = fixed_parameter(*problem, options_);
       Iterate it{x, Vector::Zero(problem->size()), state_.p, Vector::Zero(1)};
       Options patient = options_;  // a cold start deserves more corrections than a step
       patient.max_newton = std::max(options_.max_newton, 20);
@@ -87,6 +83,35 @@ bool Walker::start_regular(bool anyhow, std::string& failure) {
     failure = error.what();
   } catch (const std::runtime_error& error) {
     failure = error.what();
+  }
+  return false;
+}
+
+// Where a function of an event vanishes (a force, say) J may be singular though the branch is regular: its tangent is that of
+// a state a little beside, on the way that is asked for.
+bool Walker::start_beside_event() {
+  const double zero = 1e4 * options_.event_zero;
+  if (state_.has_tangent) return false;
+  try {
+    const std::vector<EventFunction> events = state_.problem->events(state_.x, state_.p);
+    if (std::none_of(events.begin(), events.end(), [&](const EventFunction& event) {
+          return !event.passes && std::abs(event.value) <= zero;
+        }))
+      return false;
+    if (!is_solution(*state_.problem, state_.x, state_.p, options_)) return false;
+    constexpr double aside = 1e-6;
+    const Borders fixed = fixed_parameter(*state_.problem, options_);
+    Iterate it{state_.x, Vector::Zero(state_.problem->size()), state_.p, Vector::Zero(1)};
+    parameter(it.p) += aside * options_.direction * options_.parameter_scale;
+    if (!correct(*state_.problem, fixed, it, options_).converged) return false;
+    double lean = 0.0;
+    const Tangent tangent = first_tangent(*state_.problem, it.x, it.p, options_, options_.direction, &lean);
+    if (lean > kSingular) return false;
+    const Vector x = state_.x, p = state_.p;
+    start_at(x, p, tangent);
+    return true;
+  } catch (const std::domain_error&) {
+  } catch (const std::runtime_error&) {
   }
   return false;
 }

@@ -192,6 +192,28 @@ BOOST_AUTO_TEST_CASE(a_walk_may_begin_at_an_event) {
   }
 }
 
+// Where a force f vanishes its place y costs nothing: J is singular, the branch y = 0 is not.
+BOOST_AUTO_TEST_CASE(a_walk_may_begin_where_a_force_vanishes) {
+  auto problem = std::make_shared<AlgebraicProblem>(2, [](const Vector& x, const Vector& p) {
+    return vector({x[0] - p[0] + 0.5, x[0] * x[1]});
+  });
+  problem->events_of = [](const Vector& x, const Vector&) {
+    return std::vector<EventFunction>{{"force", x[0]}};
+  };
+  problem->transition_of = [](std::size_t, const Vector&, const Vector&) {
+    return std::optional(Transition{nullptr, {}, "contact", "none", {}});
+  };
+  Options options;
+  options.lower = 0.0;
+  options.upper = options.target = 1.0;
+  Walker walker(problem, vector({0.0, 0.0}), vector({0.5}), options);
+  const auto points = walk(walker);
+  BOOST_TEST((walker.end().kind == End::Kind::target));
+  BOOST_TEST(points.back().p[0] == 1.0);
+  BOOST_TEST(std::abs(points.back().x[0] - 0.5) < 1e-12);
+  BOOST_TEST(std::abs(points.back().x[1]) < 1e-12);
+}
+
 // An event is known to its precision: a stop value within that is met there, from both sides, and not passed by.
 BOOST_AUTO_TEST_CASE(a_stop_value_at_an_event_is_met) {
   for (const double off : {0.0, 1e-15, -1e-15, 1e-12, -1e-12, 1e-8, -1e-8}) {
