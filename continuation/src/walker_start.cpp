@@ -29,14 +29,14 @@ void Walker::start() {
   std::string failure;
   // A state that is singular but neither fold nor branch point starts like any other, if it can.
   const bool on_singular = !start_regular(false, failure);
-  // On a fold or branch point index and determinant are rounding.
-  constexpr double vertical = 1e-6;
-  const auto is_vertical = [&] { return std::abs(state_.tangent.p) < vertical * options_.parameter_scale; };
-  const bool beside = (on_singular || is_vertical()) && start_beside_event();
+  const bool beside = start_beside_event(on_singular);
   if (on_singular && !beside && !start_singular() && !start_regular(true, failure))
     return lose("no solution at the start: " + failure);
   forget_rounded_signs(true);  // it may be the point of an event
-  const bool singular = on_singular || beside || is_vertical();
+  // On a fold or branch point index and determinant are rounding.
+  constexpr double vertical = 1e-6;
+  const bool singular =
+      on_singular || beside || std::abs(state_.tangent.p) < vertical * options_.parameter_scale;
   if (singular) state_.index = -1, state_.complex_index = state_.determinant = 0;
   state_.points = 1;
   state_.previous_tangent = state_.tangent;
@@ -89,7 +89,10 @@ bool Walker::start_regular(bool anyhow, std::string& failure) {
 
 // Where a function of an event vanishes (a force, say) J may be singular though the branch is regular: its tangent is that of
 // a state a little beside, on the way that is asked for.
-bool Walker::start_beside_event() {
+bool Walker::start_beside_event(bool singular) {
+  constexpr double steep = 1e-3;
+  const double here = singular ? 0.0 : std::abs(state_.tangent.p);
+  if (here > steep * options_.parameter_scale) return false;
   const double zero = 1e4 * options_.event_zero;
   if (state_.has_tangent) return false;
   try {
@@ -106,7 +109,7 @@ bool Walker::start_beside_event() {
     if (!correct(*state_.problem, fixed, it, options_).converged) return false;
     double lean = 0.0;
     const Tangent tangent = first_tangent(*state_.problem, it.x, it.p, options_, options_.direction, &lean);
-    if (lean > kSingular) return false;
+    if (lean > kSingular || std::abs(tangent.p) < 10.0 * here) return false;  // a fold is as steep there
     const Vector x = state_.x, p = state_.p;
     start_at(x, p, tangent);
     return true;

@@ -63,7 +63,7 @@ class Walker {
   // walker_start.cpp
   void start();
   bool start_regular(bool anyhow, std::string& failure);
-  bool start_beside_event();
+  bool start_beside_event(bool singular);
   bool start_singular();
   bool start_at_given();
   bool start_at_branch_point();
