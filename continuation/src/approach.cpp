@@ -5,6 +5,7 @@
 #include "continuation/corrector.hpp"
 
 namespace continuation {
+
 Borders fixed_parameter(const Problem& problem, const Options& options) {
   Borders fixed;
   fixed.parameter = options.parameter;

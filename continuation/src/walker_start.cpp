@@ -90,19 +90,16 @@ bool Walker::start_regular(bool anyhow, std::string& failure) {
 // Where a function of an event vanishes (a force, say) J may be singular though the branch is regular: its tangent is that of
 // a state a little beside, on the way that is asked for.
 bool Walker::start_beside_event(bool singular) {
-  constexpr double steep = 1e-3;
+  constexpr double steep = 1e-3, aside = 1e-6;
   const double here = singular ? 0.0 : std::abs(state_.tangent.p);
-  if (here > steep * options_.parameter_scale) return false;
-  const double zero = 1e4 * options_.event_zero;
-  if (state_.has_tangent) return false;
+  if (state_.has_tangent || here > steep * options_.parameter_scale) return false;
   try {
     const std::vector<EventFunction> events = state_.problem->events(state_.x, state_.p);
     if (std::none_of(events.begin(), events.end(), [&](const EventFunction& event) {
-          return !event.passes && std::abs(event.value) <= zero;
+          return !event.passes && std::abs(event.value) <= rounded_zero();
         }))
       return false;
     if (!is_solution(*state_.problem, state_.x, state_.p, options_)) return false;
-    constexpr double aside = 1e-6;
     const Borders fixed = fixed_parameter(*state_.problem, options_);
     Iterate it{state_.x, Vector::Zero(state_.problem->size()), state_.p, Vector::Zero(1)};
     parameter(it.p) += aside * options_.direction * options_.parameter_scale;

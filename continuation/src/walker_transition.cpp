@@ -302,7 +302,7 @@ bool Walker::enter(const Transition& transition, int direction, const std::strin
 // A function that is zero up to rounding at the point of an event has no sign there, unless it may have either.
 // @param negative  those that are negative beyond rounding have theirs: not so where they are still to be passed
 void Walker::forget_rounded_signs(bool negative) {
-  const double zero = 1e4 * options_.event_zero;
+  const double zero = rounded_zero();
   std::erase_if(state_.signs, [&](const auto& sign) {
     return std::none_of(state_.events.begin(), state_.events.end(), [&](const EventFunction& event) {
       const bool known = event.passes || event.value > zero || (negative && event.value < -zero);

@@ -37,7 +37,7 @@ bool turns_lines(const chain::Chain& chain, const Vector& x, const Vector& dx, d
 }  // namespace
 
 bool RodProblem::slides_freely(const Vector& x, const Vector& p) {
-  // What resists sliding, over the pull; below some 1e-8 rounding moves the rod along itself.
+  // What resists sliding, over the pull; rounding moves a rod that hardly resists along itself.
   constexpr double resolved = 1e-7, lost = 8e-8;
   const bool half = topology_.half;  // its odd variations slide
   if (rod_.strut || dragged() || rod_.infinite || !(half || chain_->holds_slide())) return false;

@@ -104,6 +104,8 @@ class Walker {
   static Sample* solution_at(Segment& segment, double value, const Sample& lo, const Sample& hi);
   void stop_before_entry(double met, double event, double precision);
   bool walk_back_to(double stop);
+  /// What a function may be at the point of its event, by rounding.
+  double rounded_zero() const { return 1e4 * options_.event_zero; }
   void forget_rounded_signs(bool negative);
   bool enter(const Transition& transition, int direction, const std::string& passed, std::string& failure);
   bool valid_direction(const std::shared_ptr<Problem>& problem, const Vector& x, const Vector& p,
