@@ -287,7 +287,6 @@ double RodProblem::target(const chain::Chain& chain, const Vector& x, const Load
 std::shared_ptr<continuation::Problem> RodProblem::clone() const {
   auto copy = std::make_shared<RodProblem>(scene_, spatial_, topology_, meshes_, keys_);
   copy->remember(memory());
-  if (!sliding_reference_) copy->sliding_reference_.reset();
   return copy;
 }
 

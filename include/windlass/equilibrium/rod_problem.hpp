@@ -124,11 +124,12 @@ class RodProblem final : public continuation::Problem {
     int index = -1, breaking_index = -1;
     double error = 0.0, nodal_floor = 0.0, error_floor = 0.0;
     bool slides = false;
-    int sliding_off = 0, sliding_reference = 0;
+    int sliding_off = 0;
+    std::optional<int> sliding_reference;  ///< none before the first state counted while it slides
   };
   Memory memory() const {
     return {index_,       breaking_index_, last_error_,  nodal_floor_,
-            error_floor_, slides_,         sliding_off_, sliding_reference_.value_or(0)};
+            error_floor_, slides_,         sliding_off_, sliding_reference_};
   }
   void remember(const Memory& memory) {
     index_ = memory.index;
