@@ -1,5 +1,7 @@
 #include "app/stored_point.hpp"
 
+#include "windlass/equilibrium/contact_events.hpp"
+#include "windlass/equilibrium/opening.hpp"
 #include "windlass/equilibrium/record.hpp"
 #include "windlass/equilibrium/start.hpp"
 #include "windlass/scene/keys.hpp"
@@ -17,10 +19,32 @@ scene::Scene scene_of_point(scene::Scene scene, const output::Run& run, std::siz
   return scene;
 }
 
+namespace {
+
+constexpr int unknown = -1;
+
+/// @param known  index of the point by the run it is of
+equilibrium::Stability spectrum_at(const scene::Scene& scene, const equilibrium::Restart& restart, int count,
+                                   bool modes, int known, stability::SpectrumSolver& solver) {
+  const auto problem = equilibrium::reopen(scene, restart, {equilibrium::load_key(scene)});
+  continuation::Vector x = restart.state, p = problem->parameters();
+  // At an event where an arc has no length its rotations have no weight and no sign: the spectrum is that of the state
+  // next to it, where it has some.
+  const std::vector<int> vanished = equilibrium::vanished_beside_strands(
+      equilibrium::contact_events(problem->profile(x, p), problem->topology()), problem->topology());
+  equilibrium::Stability stability;
+  stability.index = stability.inertia_index = known;
+  if (equilibrium::leave_event(*problem, x, p))
+    stability = stability::analyse(*problem, x, p, count, modes, solver);
+  stability.degenerate |= !vanished.empty();
+  return stability;
+}
+
+}  // namespace
+
 equilibrium::Stability spectrum_of(const scene::Scene& scene, const equilibrium::Restart& restart, int count,
                                    bool modes, stability::SpectrumSolver& solver) {
-  const auto problem = equilibrium::reopen(scene, restart, {equilibrium::load_key(scene)});
-  return stability::analyse(*problem, restart.state, problem->parameters(), count, modes, solver);
+  return spectrum_at(scene, restart, count, modes, unknown, solver);
 }
 
 void add_indices(std::span<equilibrium::StateSummary> states, const scene::Scene& scene) {
@@ -33,7 +57,9 @@ equilibrium::Stability spectrum_of_point(const scene::Scene& scene, const output
                                          std::size_t position, int count, stability::SpectrumSolver& solver) {
   const equilibrium::Solution stored = run.points.get(position);
   const scene::Scene at = scene_of_point(scene, run, position);
-  return spectrum_of(at, stored.restart, count, true, solver);
+  const output::PointStore::Key& key = run.points.keys().at(position);
+  const int known = run.row(output::point_name(key.branch, key.point, "")).index.value_or(unknown);
+  return spectrum_at(at, stored.restart, count, true, known, solver);
 }
 
 }  // namespace windlass::app

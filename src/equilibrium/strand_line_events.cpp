@@ -111,7 +111,14 @@ std::optional<ContactEvent> laid_between(const Profile& profile, const chain::St
 double carried_pull(const Profile& profile, const chain::Strands& strands, int joint) {
   if (!strands.inside_line(joint)) return 0.0;
   const double h = span_of(profile, strands, joint);
-  return 12.0 * opened_between_strands * profile.material.bending_stiffness / (h * h * h);
+  const chain::StrandLine& line = strands.lines()[strands.line_of(joint)];
+  const bool first = std::find(line.first.begin(), line.first.end(), joint) != line.first.end();
+  const std::vector<int>& strand = first ? line.first : line.second;
+  const auto to = [&](int end) { return std::abs(profile.pieces[joint].s(0) - profile.pieces[end].s(0)); };
+  const double away = std::min(to(strand.front()), to(strand.back())) / profile.unit_length,
+               part = std::clamp((away - beside_end) / beside_end, 0.0, 1.0);
+  const double opened = opened_at_end + part * (opened_between_strands - opened_at_end);
+  return 12.0 * opened * profile.material.bending_stiffness / (h * h * h);
 }
 
 }  // namespace windlass::equilibrium

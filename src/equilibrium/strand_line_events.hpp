@@ -43,6 +43,10 @@ std::optional<ContactEvent> laid_between(const chain::Profile& profile, const ch
 /// wrong there is Q times that, 1e-9 at most.
 inline constexpr double opened_between_strands = 1e-8;
 
+/// The same beside a line's end, up to a distance from it (what is above holds from twice that on) [ρ]: the end gives way with what pulls
+/// beside it, and holds nothing together. Touches laid densely there would keep a line closed that has opened behind its end.
+inline constexpr double opened_at_end = 1e-9, beside_end = 0.1;
+
 /// Of a line between strands the touches inside may pull, as its pressure changes its sign, with what would open the strands by
 /// no more than they may be nearer elsewhere: a force F lifts both over the span h of its neighbours by Fh³/12B.
 double carried_pull(const chain::Profile& profile, const chain::Strands& strands, int joint);

@@ -417,4 +417,13 @@ std::optional<Successor> line_with_more_touches(const ContactEvent& event, const
                            : with_more_touches(profile, topology, strip);
 }
 
+Successor lines_with_denser_touches(const chain::Profile& profile, const Topology& topology, Strip strip,
+                                    double finer) {
+  const Strands strands(topology);
+  for (const StrandLine& line : strands.lines())
+    if (strip.on[line.first.front()].line == 0)  // on obstacles
+      mark_line(strip, line.first, line.second, line.own_image(), new_strand(strip));
+  return with_touches(skeleton_of(strip).strip.successor(), profile, topology, finer);
+}
+
 }  // namespace windlass::equilibrium

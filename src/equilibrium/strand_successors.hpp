@@ -79,6 +79,10 @@ std::optional<Successor> line_with_fewer_touches(const chain::Profile& profile,
 std::optional<Successor> line_with_more_touches(const ContactEvent& event, const chain::Profile& profile,
                                                 const chain::Topology& topology, const Strip& strip);
 
+/// All lines with about so many times the touches.
+Successor lines_with_denser_touches(const chain::Profile& profile, const chain::Topology& topology,
+                                    Strip strip, double finer);
+
 /// An arc beside such a touch has no length left: two touches meet or pass each other, or one passes the edge of a line.
 /// nullopt: the link is beside none.
 std::optional<Successor> after_length_beside_strand(int link, const Strip& strip);

@@ -198,6 +198,29 @@ BOOST_AUTO_TEST_CASE(a_touch_joins_the_line_beside_it) {
   BOOST_TEST(found[1] == 9.528, boost::test_tools::tolerance(1e-3));
 }
 
+// The same the other way, on lines with other touches: the line opens behind its end, and what is found both ways differs by no more
+// than the printed precision, which holds what the touches of the lines move.
+BOOST_AUTO_TEST_CASE(a_line_opens_behind_its_end) {
+  const TemporaryFolder down, up;
+  follow(down, two_turns, 1.0 / 4.35, 9.6, 8.2);
+  follow(up, two_turns, 1.0 / 4.35, 8.2, 9.6);
+  const auto special = [](const TemporaryFolder& folder) {
+    std::ifstream file(folder.path() / "run" / "special_points.json");
+    return nlohmann::json::parse(file);
+  };
+  const auto number = [](const nlohmann::json& of, const char* key) { return of.at(key).get<double>(); };
+  const auto first = special(down), second = special(up);
+  BOOST_TEST(first.size() == 4u);
+  for (const auto& event : first) {
+    const auto same = [&](const nlohmann::json& other) {
+      return std::abs(number(event, "T") - number(other, "T")) <=
+             number(event, "precision") + number(other, "precision");
+    };
+    BOOST_TEST(std::any_of(second.begin(), second.end(), same), "T = " << number(event, "T"));
+    BOOST_TEST(number(event, "precision") < 1e-3 * number(event, "T"));
+  }
+}
+
 // Two touches 3e-5 apart hold nearly the same: one force between them costs nothing and moves nothing.
 BOOST_AUTO_TEST_CASE(spectra_of_touches_next_to_each_other) {
   const TemporaryFolder folder;
@@ -210,6 +233,28 @@ BOOST_AUTO_TEST_CASE(spectra_of_touches_next_to_each_other) {
     // The pull's slowest mode, a twist of the tails: the same all along.
     BOOST_TEST(point.at("eigenvalues")[0].get<double>() == 0.004112, boost::test_tools::tolerance(1e-3));
   }
+}
+
+// A touch passes the edge of a line: the arc between has no length there, and no weight. The spectrum goes on through the event.
+BOOST_AUTO_TEST_CASE(the_spectrum_at_an_arc_without_length) {
+  const TemporaryFolder folder;
+  follow(folder, one_turn, 0.5, 5.0, 5.6);
+  const Outcome spectra = run_program({"stability", "run", "--json"}, folder.path());
+  BOOST_REQUIRE_MESSAGE(spectra.status == 0, spectra.err);
+  const auto points = nlohmann::json::parse(spectra.out)["points"];
+  int events = 0;
+  for (std::size_t k = 1; k + 1 < points.size(); ++k) {
+    if (points[k]["name"].get<std::string>().front() != 'E') continue;
+    ++events;
+    BOOST_TEST(points[k]["degenerate"] == true);
+    BOOST_TEST(points[k]["index"] == 0);
+    BOOST_TEST(points[k]["eigenvalues"].size() == 6u);
+    // The second one rises with the tension all the way.
+    const auto second = [&](std::size_t at) { return points[at]["eigenvalues"][1].get<double>(); };
+    BOOST_TEST(second(k - 1) < second(k));
+    BOOST_TEST(second(k) < second(k + 1));
+  }
+  BOOST_TEST(events == 1);
 }
 
 // Below T = 0.2839 the thin flat coil lifts off; the thick one stays, and a branch starts in the state that `solve` finds.

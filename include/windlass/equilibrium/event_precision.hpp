@@ -14,4 +14,9 @@ namespace windlass::equilibrium {
 std::optional<double> event_precision(const RodProblem& problem, const Vector& x, const Vector& p,
                                       const std::string& event);
 
+/// The same for the touches that stand for lines between strands (PHYSICS, "Lines between turns"): the strands are nearer between them,
+/// and a line's end is off by the root of that. Nothing where there are none.
+std::optional<double> layout_precision(const RodProblem& problem, const Vector& x, const Vector& p,
+                                       const std::string& event);
+
 }  // namespace windlass::equilibrium
