@@ -25,6 +25,11 @@ double drag_on_plate(Solution& state, const Topology& topology, double upward) {
   return sum;
 }
 
+/// What another strand pushes a joint with.
+Vector3d push_of_strand(const Solution& state, const JointRecord& joint) {
+  return joint.partner < 0 ? Vector3d::Zero() : Vector3d(joint.strand_force * strand_direction(state, joint));
+}
+
 /// The same of the other contacts: what they take of the force along the axis.
 double axial_drag(const Solution& state, const Topology& topology) {
   double sum = 0.0;
@@ -36,7 +41,8 @@ double axial_drag(const Solution& state, const Topology& topology) {
         state.joints[static_cast<std::size_t>(k)].obstacle != 0)
       continue;
     const ArcRecord& before = state.arcs[static_cast<std::size_t>(k - 1)];
-    sum += before.n(2, before.n.cols() - 1) - arc.n(2, 0);
+    sum += before.n(2, before.n.cols() - 1) - arc.n(2, 0) -
+           push_of_strand(state, state.joints[static_cast<std::size_t>(k)])(2);
   }
   return sum;
 }
@@ -50,7 +56,7 @@ void measure_drag(Solution& out, double friction) {
     const JointRecord& joint = out.joints[k];
     const ArcRecord &before = out.arcs[k - 1], &after = out.arcs[k];
     const Vector3d t = rod::directors(after.q.col(0)).col(2);
-    Vector3d force = joint.force * joint.normal;
+    Vector3d force = joint.force * joint.normal + push_of_strand(out, joint);
     if (joint.obstacle == 0)
       force += joint.force * friction * (Vector3d::UnitZ() - out.travel_rate * t).normalized();
     const Vector3d rest = before.n.rightCols<1>() - after.n.col(0) - force;

@@ -173,7 +173,7 @@ Equilibria solve_dragged(const scene::Scene& scene, const std::vector<std::strin
   std::string searched, why;
   std::vector<Started> found = dragged_states(scene, keys, searched);
   try {
-    found.insert(found.begin(), flat_on_plate(scene, keys));
+    found.insert(found.begin(), coil_on_plate(scene, keys));
   } catch (const NoEquilibrium& none) {
     why = none.what();
   }

@@ -147,10 +147,10 @@ void check_sliding(const Document& document, const Scene& scene) {
   if (scene.plate->side != PlateSide::above)
     refuse("plate.side",
            "must be \"above\" with cylinder.sliding = \"up\", or the cylinder would carry the rod away");
-  if (scene.self_contact)
-    refuse("rod.self_contact",
-           "must be false with cylinder.sliding = \"up\": the friction of rods that touch themselves is not "
-           "built yet");
+  if (scene.self_contact && scene.motion.friction_couple)
+    refuse("cylinder.friction_couple",
+           "must be false for a rod that may touch itself: the moment of the friction about its centre line "
+           "is not built yet");
   if (!scene.rod.isotropic_straight())
     refuse("cylinder.sliding", "needs an isotropic, naturally straight rod");
 }
