@@ -244,7 +244,14 @@ std::optional<Started> crossing_on_plate(const scene::Scene& scene, const std::v
 Started coil_on_plate(const scene::Scene& scene, const std::vector<std::string>& keys) {
   if (!(scene.strand_radius() > 0.0)) return flat_on_plate(scene, keys);
   std::string failure;
-  if (auto found = crossing_on_plate(scene, keys, failure)) return *found;
+  // Thin tails cross on lines where the tension is high, and hang on touches where it is low.
+  constexpr double loose = 2.0, low = 0.6;
+  if (scene.load.tension > low)
+    if (auto found = crossing_on_plate(scene, keys, failure)) return *found;
+  scene::Scene moderate = scene;
+  moderate.load.tension = loose;
+  if (const auto from = crossing_on_plate(moderate, {"load.tension"}, failure))
+    if (auto found = reach(*from, scene, scene.load.tension, false, keys, failure)) return *found;
   throw NoEquilibrium("no coil of this thickness was found on the plate: " + failure);
 }
 

@@ -92,6 +92,31 @@ BOOST_AUTO_TEST_CASE(bordered_solves_match_differences_of_the_residual) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(matrices_of_thick_rods_that_are_dragged_match_differences) {
+  // One tail in the plate, the other below it, at T = 9 on the cylinder where it is pressed on.
+  for (const double tension : {2.0, 8.0})
+    for (const scene::Travel travel : {scene::Travel::blocked, scene::Travel::free}) {
+      scene::Scene scene;
+      scene.has_cylinder = true;
+      scene.load = {.tension = tension, .angle = 2.0 * M_PI, .thrust = {}};
+      scene.rod.length = 24.0;
+      scene.rod_radius = 0.25;
+      scene.self_contact = true;
+      scene.friction = 0.32;
+      scene.motion = {scene::Sliding::up, false};
+      scene.plate.emplace();
+      scene.ends.travel = travel;
+      scene.model.tolerance = 1e-6;
+      equilibrium::Started s = equilibrium::cold_start(scene, true, false, {"load.tension"});
+      const contact::Loads loads = s.problem->loads(s.p);
+      const MatrixXd j = differences(s.problem->chain(), s.x, loads);
+      BOOST_TEST_CONTEXT("T = " << tension << ": " << s.problem->topology().text()) {
+        BOOST_TEST(s.problem->chain().couplings().size() == 1u);
+        BOOST_TEST((MatrixXd(s.problem->chain().jacobian(s.x, loads)) - j).norm() < 1e-7 * j.norm());
+      }
+    }
+}
+
 BOOST_AUTO_TEST_CASE(an_equilibrium_is_a_fixed_point) {
   for (const Case& c : cases) {
     equilibrium::Started s = state(c);
