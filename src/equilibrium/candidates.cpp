@@ -81,21 +81,21 @@ std::vector<Successor> flat_line_lifts(int link, const Strip& strip, const Profi
   std::vector<Successor> out;
   if (!flat(i) || (!strip.is_line(i - 1) && !strip.is_line(i + 1))) return out;
   const chain::Seat plate{strip.on[i].flat}, cylinder{strip.on[i].obstacle};
-  for (const double length : {0.05, 0.02, 0.1, 0.2}) {
+  // Of p = a + b σ², σ from the place where it leaves the plate: lengths grow with the root of what is beyond the event, so that a
+  // state beside it is sought.
+  for (const double length : {0.2, 0.1, 0.3}) {
     const double gap = length * profile.unit_length;
     Strip next = strip;
     next.parts[i].kind = Stretch::gap;
     next.on[i].flat = -1;
     if (strip.is_line(i + 1)) {
       next.split(i + 1, strip.s[i + 1] + gap, Stretch::gap, Stretch::line, cylinder);
-      next.parts[i + 1].fresh = true;
       next.on[i + 1] = plate;
     } else {
       next.on[i + 1].flat = plate.obstacle;
     }
     if (strip.is_line(i - 1)) {
       next.split(i - 1, strip.s[i] - gap, Stretch::line, Stretch::gap, cylinder);
-      next.parts[i].fresh = true;
       next.on[i + 1] = plate;
     } else {
       next.on[i].flat = plate.obstacle;
