@@ -223,8 +223,12 @@ std::optional<Started> crossing_on_plate(const scene::Scene& scene, const std::v
         std::make_shared<RodProblem>(scene, true, flat.problem->topology(), flat.problem->meshes(), keys);
     return Started{problem, flat.x, problem->parameters(), flat.newton_iterations};
   }
+  if (shape.pieces.size() != 3 || shape.pieces[1].s.tail<1>()(0) > M_PI) {  // on touches, or on itself
+    failure = "its turns would lie on each other, which is not built for a coil on a plate";
+    if (shape.pieces.size() != 3) failure = "it has no line contact to start from";
+    return std::nullopt;
+  }
   failure = "pressed apart where they cross, the tails of the flat coil were not balanced";
-  if (shape.pieces.size() != 3) return std::nullopt;  // on touches
   for (double radius = std::min(0.01, scene.rod_radius); radius > 1e-5; radius *= 0.3) {
     scene::Scene slender = scene;
     slender.rod_radius = radius;
@@ -245,8 +249,8 @@ Started coil_on_plate(const scene::Scene& scene, const std::vector<std::string>&
   if (!(scene.strand_radius() > 0.0)) return flat_on_plate(scene, keys);
   std::string failure;
   // Thin tails cross on lines where the tension is high, and hang on touches where it is low.
-  constexpr double loose = 2.0, low = 0.6;
-  if (scene.load.tension > low)
+  constexpr double loose = 2.0, low = 0.6, high = 5.0;
+  if (scene.load.tension > low && scene.load.tension < high)
     if (auto found = crossing_on_plate(scene, keys, failure)) return *found;
   scene::Scene moderate = scene;
   moderate.load.tension = loose;

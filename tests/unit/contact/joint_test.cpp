@@ -147,8 +147,7 @@ void check_drag_of_push(const Joint& joint) {
   const Eigen::Vector3d reaction = -push.dot(here.normal) * (here.normal + loads.friction * d);
   // Balance along the surface of push and reaction: rows of the coordinates of the place.
   const Eigen::Vector2d both = here.tangents.transpose() * (push + reaction);
-  const Eigen::Vector2d tested =
-      (SmallVector(line.dr.transpose() * push) + at(w, push).value).head<2>();
+  const Eigen::Vector2d tested = (SmallVector(line.dr.transpose() * push) + at(w, push).value).head<2>();
   BOOST_TEST((both - tested).norm() < 1e-14);
   for (int k = 0; k < joint.tangent(); ++k) {
     const SmallVector change =
