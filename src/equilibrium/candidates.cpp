@@ -111,6 +111,14 @@ bool vanishes(const Strip& strip, int link) {
   return strip.is_line(link) && std::abs(strip.s[link + 1] - strip.s[link]) < vanished;
 }
 
+/// Gaps of the same length at an event are mirror images on a full chain, and close together.
+bool closes_with(const Strip& strip, int link, int other) {
+  constexpr double same = 1e-3 * least_length;
+  const auto length = [&](int i) { return std::abs(strip.s[i + 1] - strip.s[i]); };
+  return strip.parts[link].kind == Stretch::gap && strip.parts[other].kind == Stretch::gap &&
+         std::abs(length(link) - length(other)) < same;
+}
+
 /// Where the edge of a line and a touch of the plate meet, beyond which the rod lies flat in the plate, the line itself reaches the
 /// plate and lies on both from there on; and the other way round. Where a touch of the cylinder, or of another strand, and one of
 /// the plate meet they change places: the rod lies flat from the plate's touch on, and the other is one of both. Nothing for other
@@ -172,7 +180,7 @@ std::vector<Successor> after_length(int link, const Strip& strip) {
   Strip together = strip;
   int count = 0;
   for (int i = static_cast<int>(strip.parts.size()); i-- > 0;)
-    if (i == link || vanishes(strip, i)) count += together.collapse(i);
+    if (i == link || vanishes(strip, i) || closes_with(strip, link, i)) count += together.collapse(i);
   if (count > 1) out.push_back(together.successor());
   Strip alone = strip;
   if (alone.collapse(link)) out.push_back(alone.successor());

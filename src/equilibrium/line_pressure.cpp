@@ -105,11 +105,13 @@ ContactEvent suction(const Dense& line, const ContactEvent& pressure, const std:
   }
   if (event.value < 1.0) return event;
   const double part = part_of_carried(pressure);
-  // Close to an edge it is carried until it reaches the edge, so that no line, or next to none, is left beyond it.
+  // Close to an edge it is carried until it reaches past the edge, so that no line is left beyond it. Past it by more than the
+  // pressure's third derivative moves the gap: short of the edge, the touch there would press the rod into the surface.
+  constexpr double past = 1.1;
   const double middle = 0.5 * (event.from + event.to), carried = width / part;
   const double edge = mirrored ? end - middle : std::min(end - middle, middle - begin);
   const bool close = edge < gap_reaches_edge * 0.5 * gap_inside * carried;
-  event.value = 1.0 - (close ? width / std::max(2.0 * edge / gap_inside, 0.5 * carried) : part);
+  event.value = 1.0 - (close ? width / std::max(past * 2.0 * edge / gap_inside, 0.5 * carried) : part);
   return event;
 }
 

@@ -94,6 +94,37 @@ BOOST_AUTO_TEST_CASE(both_outer_contacts_of_a_full_chain_widen_at_once) {
         "rod.twist_ratio=5", "model.symmetry=none"});
 }
 
+// Where the outer touches of an arch meet their neighbours, on both sides at once, it goes on with three touches. Long clamped tails
+// hardly feel how long they are.
+BOOST_AUTO_TEST_CASE(gaps_that_are_mirror_images_close_together) {
+  std::vector<double> found;
+  for (const char* length : {"35.463", "39.6314"}) {
+    const TemporaryFolder folder;
+    draw(folder, "capstan-4pi",
+         {"load.angle=\"3 pi\"", std::string("rod.length=") + length, "ends.kind=clamped",
+          "rod.twist_ratio=1", "continuation.to=0.34", "model.symmetry=none"});
+    for (const auto& row : rows_of(folder).rows)
+      if (row.at("type") == "contact" && row.at("topology") == "tail touch gap touch gap touch tail" &&
+          std::abs(number(row, "tilt")) < 1e-8)
+        found.push_back(number(row, "T"));
+  }
+  BOOST_REQUIRE(found.size() == 2u);
+  BOOST_TEST(std::abs(found[0] - found[1]) < 1e-6);
+}
+
+// On an arm without symmetry the pressure of a line falls to zero close to the line's edge, at more than one place within 1e-4 in
+// T: neither gap is taken for a touch that has not been reached.
+BOOST_AUTO_TEST_CASE(a_gap_close_to_an_edge_opens_once) {
+  const TemporaryFolder folder;
+  draw(folder, "capstan-4pi",
+       {"load.angle=\"3 pi\"", "rod.length=39.6314", "ends.kind=clamped",
+        "rod.twist_ratio=0.6666666666666666", "continuation.to=0.55", "model.symmetry=none"});
+  int events = 0;
+  for (const auto& row : rows_of(folder).rows)
+    events += row.at("branch") == "4" && row.at("type") == "contact" && number(row, "T") > 0.5745;
+  BOOST_TEST(events == 1);
+}
+
 // A flat loop on two touches turns about the pulls at no cost. That zero is no branch point, nor does it hide one: with long
 // clamped tails, which are as good as free of moment at their ends, and with a branch point close to where the loop begins.
 BOOST_AUTO_TEST_CASE(a_turn_that_costs_nothing_is_told_from_branch_points) {
