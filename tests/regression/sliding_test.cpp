@@ -202,8 +202,10 @@ BOOST_AUTO_TEST_CASE(a_thick_coil_is_followed_until_its_strands_part) {
   const Table table = read_csv(std::filesystem::path(run) / "branches.csv");
   BOOST_TEST(table.rows.size() >= 30u);
   for (const auto& row : table.rows) {  // travel is blocked: the drag is along the axis
-    BOOST_TEST(std::abs(std::stod(row.at("F0")) / (0.32 * std::stod(row.at("R_tot"))) - 1.0) < 1e-9);
-    BOOST_TEST(std::abs(std::stod(row.at("plate_force")) / std::stod(row.at("F0")) - 1.0) < 1e-9);
+    // At an event an arc may have no length; the force in it is rounding over that.
+    const double rounding = row.at("type") == "contact" ? 1e-8 : 1e-10;
+    BOOST_TEST(std::abs(std::stod(row.at("F0")) / (0.32 * std::stod(row.at("R_tot"))) - 1.0) < rounding);
+    BOOST_TEST(std::abs(std::stod(row.at("plate_force")) / std::stod(row.at("F0")) - 1.0) < rounding);
     if (std::stod(row.at("self_force")) > 0.0) BOOST_TEST(row.at("index") == "0");
   }
   const auto parts = std::find_if(points.begin(), points.end(), [](const nlohmann::json& point) {
