@@ -25,8 +25,8 @@ Chain::Turn Chain::turn_to_expect(const VectorXd& x, const Loads& loads) const {
   for (const int j : {0, joint_count() - 1}) {
     if (joints_[j]->kind() != JointKind::end) continue;
     const Attachment end = attachment(Purpose::equilibrium, x, loads, j, j == 0 ? Side::right : Side::left);
-    const bool clamped = end.dq.isZero(0.0);
-    if (clamped) turn.spin = -turn.axis.dot(rod::directors(Eigen::Vector4d(end.q)).col(2));
+    const bool cannot_spin = end.dq.cols() < 3;
+    if (cannot_spin) turn.spin = -turn.axis.dot(rod::directors(Eigen::Vector4d(end.q)).col(2));
   }
   return turn;
 }

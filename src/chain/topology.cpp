@@ -65,6 +65,7 @@ std::unique_ptr<Joint> end_joint(const RodKind& rod, const Topology& t, const Ar
   }
   if (closed_form(rod, tail))
     return std::make_unique<planar::FarEnd>(rod.spatial ? 3 : 1, rod.spatial ? 3 : 2);
+  if (rod.spatial && kind == EndKind::spin_held) return std::make_unique<spatial::HeldEnd>();
   if (rod.spatial) return std::make_unique<spatial::End>(arc_side, kind == EndKind::clamped);
   return std::make_unique<planar::End>(arc_side, kind == EndKind::clamped);
 }
@@ -138,7 +139,7 @@ std::unique_ptr<Arc> make_arc(const RodKind& rod, Stretch stretch, int obstacle,
     return rod::make_line_arc(rod.obstacles[obstacle], rod.material(), mesh.nodes, mesh.stages);
   }
   if (stretch == Stretch::tail && closed_form(rod, mesh)) {
-    if (!rod.infinite && (rod.clamped() || !rod.isotropic_straight()))
+    if (!rod.infinite && (rod.holds_an_end() || !rod.isotropic_straight()))
       throw std::invalid_argument(
           "a finite tail in closed form needs a free end and an isotropic, straight rod");
     if (rod.stretches()) throw std::invalid_argument("no tail in closed form stretches");
@@ -151,7 +152,7 @@ std::unique_ptr<Arc> make_arc(const RodKind& rod, Stretch stretch, int obstacle,
 
 /// Parity, under the half-turn, of a turn of the whole rod that costs nothing: a flat rod on isolated touches turns about
 /// the pulls if they lie along one line, or about their direction, the normal of its mid-point, if they are parallel.
-/// Clamped ends turn with their rod only about one line.
+/// Ends that cannot spin turn with their rod only about one line.
 std::optional<contact::Parity> neutral_turn(const RodKind& rod, const Topology& t) {
   const double half_turns = rod.pull_angle / M_PI, whole = std::round(half_turns);
   constexpr double nearly = 1e-5;  // there too the turn costs too little to be told from rounding
@@ -161,8 +162,9 @@ std::optional<contact::Parity> neutral_turn(const RodKind& rod, const Topology& 
   for (int j = 1; j < static_cast<int>(all.size()); ++j)
     if (t.touches_flat(j)) return std::nullopt;  // the plate holds it
   if (std::remainder(whole, 2.0) == 0.0)
-    return rod.clamped() && !rod.isotropic_straight() ? std::nullopt : std::optional(contact::Parity::odd);
-  return rod.clamped() ? std::nullopt : std::optional(contact::Parity::even);
+    return rod.holds_an_end() && !rod.isotropic_straight() ? std::nullopt
+                                                           : std::optional(contact::Parity::odd);
+  return rod.holds_an_end() ? std::nullopt : std::optional(contact::Parity::even);
 }
 
 /// Does a contact of a strut with one of the obstacles, not with another strand, meet a condition?
@@ -203,7 +205,7 @@ Chain::Gauges gauges(const RodKind& rod, const Topology& t) {
   }
   g.height = rod.spatial && rod.travel == Travel::none && !on_plate(rod, t);
   g.travel = rod.spatial ? rod.travel : Travel::none;
-  g.spin = rod.spatial && !rod.clamped() && rod.isotropic_straight();
+  g.spin = rod.spatial && !rod.holds_an_end() && rod.isotropic_straight();
   g.slide = true;
   return g;
 }

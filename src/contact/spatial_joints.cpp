@@ -274,6 +274,35 @@ void End::retract(const double* w, const double* dw, double* out) const {
   turned = rod::retract(Eigen::Map<const Eigen::Vector4d>(w), v);
 }
 
+namespace {
+
+/// Frame of an end in a universal joint.
+rod::Quaternion jointed_frame(const double* w) {
+  return rod::product(rod::rotation(Vector3d::UnitZ(), w[0]),
+                      rod::product(surface_frame(0.0, 0.0, 0.0), rod::rotation(Vector3d::UnitX(), w[1])));
+}
+
+}  // namespace
+
+Attachment HeldEnd::attach(Side, const double* w, const Loads&) const {
+  Attachment at = Attachment::zero(4, 3, 3, tangent());
+  at.q = jointed_frame(w);
+  at.dq.col(0) = 0.5 * rod::directors(at.q).transpose() * Vector3d::UnitZ();
+  at.dq(0, 1) = 0.5;
+  return at;
+}
+
+void HeldEnd::curvature(Side, const double* w, const Loads&, const SmallVector& g_q, const SmallVector&,
+                        SmallMatrix& out) const {
+  const Vector3d axis = rod::directors(jointed_frame(w)).transpose() * Vector3d::UnitZ();
+  out(0, 1) += 0.5 * Vector3d(g_q).dot(axis.cross(Vector3d::UnitX()));
+}
+
+void HeldEnd::retract(const double* w, const double* dw, double* out) const {
+  out[0] = w[0] + dw[0];
+  out[1] = w[1] + dw[1];
+}
+
 Attachment FreeRodEnd::attach(Side, const double* w, const Loads& loads) const {
   Attachment at = Attachment::zero(4, 3, 3, tangent());
   const double sign = arc_ == Side::left ? 1.0 : -1.0;  // the arc that ends here is the right half
@@ -333,6 +362,13 @@ void FreeSection::adopt(const Place& place, double* w) const {
 
 void End::adopt(const Place& place, double* w) const {
   if (!clamped_) Eigen::Map<Eigen::Vector4d>{w} = place.q;
+}
+
+void HeldEnd::adopt(const Place& place, double* w) const {
+  const Vector3d t = rod::directors(place.q).col(2);
+  w[0] = place.heading;
+  w[1] = std::atan2(t.z(), std::hypot(t.x(), t.y()));
+  if (jointed_frame(w).dot(place.q) < 0.0) w[0] += 2.0 * M_PI;
 }
 
 void FreeRodEnd::adopt(const Place& place, double* w) const {

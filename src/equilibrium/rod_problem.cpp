@@ -59,6 +59,7 @@ namespace {
 /// The end of a free rod holds its place on e_x: an end free of moment is a pin there.
 chain::EndKind end_kind(const scene::Scene& scene, scene::EndKind kind) {
   if (kind == scene::EndKind::clamped) return chain::EndKind::clamped;
+  if (kind == scene::EndKind::spin_held) return chain::EndKind::spin_held;
   return scene.has_cylinder ? chain::EndKind::moment_free : chain::EndKind::pinned;
 }
 

@@ -26,7 +26,7 @@ void choose_tails(std::vector<ArcMesh>& meshes, const Topology& topology, const 
                   const contact::Loads& loads, const std::vector<double>& s) {
   constexpr int gap_elements = 8;
   const std::vector<Stretch>& kinds = topology.stretches;
-  const bool admitted = !rod.clamped() && !rod.strut && !rod.infinite && rod.isotropic_straight() &&
+  const bool admitted = !rod.holds_an_end() && !rod.strut && !rod.infinite && rod.isotropic_straight() &&
                         !rod.stretches() &&
                         rod.travel == chain::Travel::none;  // a formula knows no change of its pull
   for (std::size_t i = 0; i < kinds.size(); ++i) {

@@ -47,7 +47,7 @@ void set_word(Scene& scene, const std::string& word) {
   scene.*Part.*Member = static_cast<Enum>(found - std::begin(Words));
 }
 
-constexpr std::string_view end_words[] = {"moment_free", "clamped", "pinned"};
+constexpr std::string_view end_words[] = {"moment_free", "clamped", "pinned", "spin_held"};
 
 /// One end's kind; no text where it is that of `ends.kind`.
 template <auto Member>
@@ -269,7 +269,8 @@ std::vector<Key> load_keys() {
       parameter<&Scene::load, &Load::thrust>("load.thrust", Dimension::force, any,
                                              "compressive end force of a strut"),
       word<&Scene::ends, &Ends::kind, end_words>("ends.kind",
-                                                 "what holds the ends; pinned: rods without a cylinder"),
+                                                 "what holds the ends; pinned: rods without a cylinder; "
+                                                 "spin_held: with one, bends and does not spin"),
       end_of_rod<&Ends::left>("ends.left", "what holds the end at s = -L/2; default: ends.kind"),
       end_of_rod<&Ends::right>("ends.right", "what holds the end at s = L/2; default: ends.kind"),
       parameter<&Scene::ends, &Ends::shortening>("ends.shortening", Dimension::none,

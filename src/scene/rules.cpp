@@ -33,7 +33,11 @@ void check_ends(const Document& document, const Scene& scene) {
                                          : scene.ends.kind;
     if (scene.has_cylinder && kind == EndKind::pinned)
       forbid(document, key,
-             "must be \"moment_free\" or \"clamped\" with [cylinder]: its pulls leave the ends free to move");
+             "must be \"moment_free\", \"clamped\" or \"spin_held\" with [cylinder]: its pulls leave the "
+             "ends free to "
+             "move");
+    if (!scene.has_cylinder && kind == EndKind::spin_held)
+      forbid(document, key, "must be \"moment_free\", \"pinned\" or \"clamped\" without [cylinder]");
   }
 }
 

@@ -143,7 +143,7 @@ struct End {
   Section section;
   Vector3d pull;  // external force on the end
   double side;    // +1 at s = L/2, where n = pull; -1 at s = -L/2, where n = -pull
-  bool clamped;
+  scene::EndKind kind;
 };
 
 /// The frame of a clamped end: tangent along the pull and no turn about it from the planar frame, d2 = -e_z.
@@ -153,19 +153,31 @@ double clamp_error(const End& end) {
   return std::max((d.col(2) - along).norm(), (d.col(1) + Vector3d::UnitZ()).norm());
 }
 
+/// What a universal joint of the axes e_z and d1 leaves free of moment; and d1, which stays normal to e_z.
+double jointed_moment(const End& end) {
+  const Vector3d d1 = rotation(end.section.q).col(0);
+  return std::max(std::abs(end.section.m.dot(d1)), std::abs(end.section.m.z()));
+}
+double spin_error(const End& end) { return std::abs(rotation(end.section.q)(2, 0)); }
+
 void check_capstan_ends(const End (&ends)[2], const Scales& scales, CheckList& list) {
-  Largest pull, moment, clamp;
+  Largest pull, moment, clamp, spin;
   for (const End& end : ends) {
     pull.add((end.side * end.section.n - end.pull).norm() / scales.force);
     if (end.joint.kind == JointKind::infinity) continue;
-    if (end.clamped)
+    if (end.kind == scene::EndKind::clamped) {
       clamp.add(clamp_error(end));
-    else
+    } else if (end.kind == scene::EndKind::spin_held) {
+      spin.add(spin_error(end));
+      moment.add(jointed_moment(end) / scales.moment);
+    } else {
       moment.add(end.section.m.norm() / scales.moment);
+    }
   }
   list.at_most("end_pull", pull.value(), tight, "internal force at the ends against the pulls, / max(1, T)");
   if (moment.any())
-    list.at_most("end_moment", moment.value(), tight, "moment at moment-free ends, / max(1, sqrt(T))");
+    list.at_most("end_moment", moment.value(), tight, "moment that the ends are free of, / max(1, sqrt(T))");
+  if (spin.any()) list.at_most("end_spin", spin.value(), tight, "d1 of ends that cannot spin, along e_z");
   if (clamp.any())
     list.at_most("end_clamp", clamp.value(), tight, "frame of clamped ends against the pull and the plane");
 }
@@ -173,7 +185,7 @@ void check_capstan_ends(const End (&ends)[2], const Scales& scales, CheckList& l
 void check_strut_ends(const End (&ends)[2], const Scales& scales, CheckList& list) {
   Largest moment, clamp;
   for (const End& end : ends) {
-    if (end.clamped)
+    if (end.kind == scene::EndKind::clamped)
       clamp.add((tangent(end.section) - Vector3d::UnitX()).norm());
     else
       moment.add(end.section.m.norm() / scales.moment);
@@ -188,11 +200,10 @@ void check_ends(const Solution& solution, const scene::Scene& scene, const Scale
   const Vector3d right(std::cos(solution.phi / 2), std::sin(solution.phi / 2), 0.0);
   const Vector3d left(-right.x(), right.y(), 0.0);
   const double difference = solution.pull_difference;
-  const End ends[2] = {
-      {solution.joints.front(), first_section(solution.arcs.front()), (solution.T - difference) * left, -1.0,
-       scene.ends.left_kind() == scene::EndKind::clamped},
-      {solution.joints.back(), last_section(solution.arcs.back()), (solution.T + difference) * right, 1.0,
-       scene.ends.right_kind() == scene::EndKind::clamped}};
+  const End ends[2] = {{solution.joints.front(), first_section(solution.arcs.front()),
+                        (solution.T - difference) * left, -1.0, scene.ends.left_kind()},
+                       {solution.joints.back(), last_section(solution.arcs.back()),
+                        (solution.T + difference) * right, 1.0, scene.ends.right_kind()}};
   if (solution.has_cylinder) {
     check_capstan_ends(ends, scales, list);
   } else {

@@ -1,5 +1,6 @@
 // One equilibrium, as a user asks for it.
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "regression/coil_run.hpp"
@@ -132,6 +133,38 @@ BOOST_AUTO_TEST_CASE(the_other_equilibria_are_listed) {
     BOOST_TEST(state["potential"].get<double>() >= states[0]["potential"].get<double>());
   }
   BOOST_TEST(flat);
+}
+
+// Ends that bend freely and do not spin. Their moments are felt, as a clamp's are, by exp(−2 √T L_tail): clamped ends differ by
+// that, exp(−6) less with 6 more of rod. The twist that they keep in spreads over the length: R_tot is that of free ends but for
+// 1/L.
+BOOST_AUTO_TEST_CASE(ends_that_cannot_spin) {
+  const auto total = [](const char* ends, const char* length) {
+    return answer("1", {"--set", std::string("ends.kind=") + ends, "--set",
+                        std::string("rod.length=") + length})["R_tot"]
+        .get<double>();
+  };
+  const double near = total("spin_held", "14") - total("clamped", "14"),
+               far = total("spin_held", "20") - total("clamped", "20");
+  BOOST_TEST(std::abs(near) > 1e-4);
+  BOOST_TEST(std::abs(far / near / std::exp(-6.0) - 1.0) < 0.2);
+  const double free = total("moment_free", "60"), kept = free - total("spin_held", "60");
+  BOOST_TEST(kept > 0.1);
+  BOOST_TEST(std::abs(kept / (free - total("spin_held", "120")) - 2.0) < 0.02);
+}
+
+// The helix that leaves the flat coil, whole chains and halves: all certificates, the end's among them.
+BOOST_AUTO_TEST_CASE(branches_between_ends_that_cannot_spin) {
+  for (const char* symmetry : {"half_turn", "none"}) {
+    const TemporaryFolder folder;
+    const Outcome run = run_program({"diagram", coil(), "--set", "ends.kind=spin_held", "--set",
+                                     std::string("model.symmetry=") + symmetry, "--set",
+                                     "continuation.to=0.3", "--no-eigenvalues", "--quiet", "--out", "run"},
+                                    folder.path());
+    BOOST_TEST(run.status == 0, run.err);
+    const Outcome checked = run_program({"verify", "run"}, folder.path());
+    BOOST_TEST(checked.status == 0, checked.out);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -89,8 +89,8 @@ struct Topology {
 /// The whole rod of a half chain.
 Topology unfolded(const Topology& half);
 
-/// How an end of the rod is held. Free rods: clamped or pinned. Rods round a cylinder: clamped or moment_free.
-enum class EndKind { moment_free, clamped, pinned };
+/// How an end of the rod is held. Free rods: clamped or pinned. Rods round a cylinder: clamped, moment_free or spin_held.
+enum class EndKind { moment_free, clamped, pinned, spin_held };
 
 /// What else a chain is made of.
 struct RodKind {
@@ -128,7 +128,11 @@ struct RodKind {
     rod.weight = loads.weight();
     return rod;
   }
-  bool clamped() const { return left == EndKind::clamped || right == EndKind::clamped; }
+  /// Is an end kept from turning about its tangent, or altogether?
+  bool holds_an_end() const {
+    const auto held = [](EndKind kind) { return kind == EndKind::clamped || kind == EndKind::spin_held; };
+    return held(left) || held(right);
+  }
   bool isotropic_straight() const { return stiffness(0) == stiffness(1) && natural.isZero(); }
 };
 

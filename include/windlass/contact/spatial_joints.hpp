@@ -184,7 +184,9 @@ class Pressed final : public VectorJoint {
   SurfacePointer surface_;
 };
 
-/// Rod end under the dead pull. moment_free: w = (q), 3 degrees of freedom. clamped: frame along the pull, as in the untwisted planar rod.
+/// Rod end under the dead pull.
+///  - nothing held: free of moment, the frame turns as it likes: w = (q), 3 degrees of freedom;
+///  - frame held: along the pull, as in the untwisted planar rod: nothing unknown. See HeldEnd for what is between.
 class End final : public Joint {
  public:
   End(Side arc_side, bool clamped) : arc_(arc_side), clamped_(clamped) {}
@@ -199,6 +201,22 @@ class End final : public Joint {
  private:
   Side arc_;
   bool clamped_;
+};
+
+/// Rod end in a universal joint under the dead pull: it bends as it likes and cannot spin. One axis of the joint is e_z, the
+/// other d₁, which stays normal to it: w = (α, β), the frame of a flat rod turned by α about e_z and by β about d₁. Its
+/// moment is along e_z × d₁, the tangent's direction in the plane of the pulls.
+class HeldEnd final : public Joint {
+ public:
+  JointKind kind() const override { return JointKind::end; }
+  int ambient() const override { return 2; }
+  int tangent() const override { return 2; }
+  std::vector<int> out_of_plane() const override { return {1}; }
+  Attachment attach(Side side, const double* w, const Loads& loads) const override;
+  void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
+                 SmallMatrix& out) const override;
+  void retract(const double* w, const double* dw, double* out) const override;
+  void adopt(const Place& place, double* w) const override;
 };
 
 /// End of a free rod along e_x, y = z = 0; see EndKind. x is imposed by the shortening, x = ±(1 − shortening)·half_length, or

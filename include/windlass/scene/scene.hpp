@@ -12,8 +12,9 @@
 /// scene; `units` then carries the scales that give millimetres and newtons back.
 namespace windlass::scene {
 
-/// Free rods (no cylinder) hold the places of their ends on e_x: `moment_free` is `pinned` there.
-enum class EndKind { moment_free, clamped, pinned };
+/// Free rods (no cylinder) hold the places of their ends on e_x: `moment_free` is `pinned` there. `spin_held`: round a cylinder, in
+/// a universal joint, which lets the end bend and not spin.
+enum class EndKind { moment_free, clamped, pinned, spin_held };
 enum class ModelKind { automatic, closed_form, planar, kirchhoff };
 enum class Symmetry { automatic, half_turn, none };
 enum class Sliding { none, up };

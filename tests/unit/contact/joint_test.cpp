@@ -229,6 +229,7 @@ BOOST_AUTO_TEST_CASE(attachments_of_spatial_joints) {
     check("lift off a plate", LiftOff(flat, obstacle::unit_cylinder(), plate()), {Side::left, Side::right});
   }
   check("end", End(Side::left, false), {Side::left});
+  check("end in a universal joint", HeldEnd(), {Side::left});
   for (const bool under_thrust : {false, true})
     for (const bool pinned : {false, true})
       check("end of a free rod", FreeRodEnd(Side::left, under_thrust, pinned), {Side::left});

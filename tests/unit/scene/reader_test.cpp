@@ -187,9 +187,9 @@ BOOST_AUTO_TEST_CASE(bad_names_get_a_suggestion) {
           .find(
               "capstan.toml:12: continuation.parameter = \"load.tensio\": must be a key that a branch can be "
               "followed in, one of \"rod.length\", ") == 0u);
-  BOOST_TEST(
-      refusal(dimensionless + "[ends]\nkind = \"free\"\n") ==
-      "capstan.toml:13: ends.kind = \"free\": must be one of \"moment_free\", \"clamped\", \"pinned\"");
+  BOOST_TEST(refusal(dimensionless + "[ends]\nkind = \"free\"\n") ==
+             "capstan.toml:13: ends.kind = \"free\": must be one of \"moment_free\", \"clamped\", "
+             "\"pinned\", \"spin_held\"");
 }
 
 BOOST_AUTO_TEST_CASE(overrides_are_named_in_messages) {
@@ -198,8 +198,9 @@ BOOST_AUTO_TEST_CASE(overrides_are_named_in_messages) {
              "--set load.tenson = 1: unknown key; did you mean load.tension?");
   BOOST_TEST(refusal(dimensionless, {"load.tension"}) ==
              "--set load.tension: must have the form KEY=VALUE, such as load.tension=2");
-  BOOST_TEST(refusal(dimensionless, {"ends.kind=free"}) ==
-             "--set ends.kind = free: must be one of \"moment_free\", \"clamped\", \"pinned\"");
+  BOOST_TEST(
+      refusal(dimensionless, {"ends.kind=free"}) ==
+      "--set ends.kind = free: must be one of \"moment_free\", \"clamped\", \"pinned\", \"spin_held\"");
 }
 
 BOOST_AUTO_TEST_CASE(wholly_dimensionless_or_wholly_physical) {
