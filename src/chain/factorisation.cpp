@@ -60,6 +60,7 @@ void Chain::factor(const VectorXd& x, const Loads& loads, const MatrixXd& b_aske
   }
   add_locations(x, loads, dense);
   add_couplings(Purpose::equilibrium, numbering_, x, dense);
+  add_dragged_pushes(x, loads, dense);
 
   border_b_ = b;
   border_c_ = c;

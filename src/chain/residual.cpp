@@ -33,6 +33,7 @@ VectorXd Chain::residual(const VectorXd& x, const Loads& loads) const {
     if (const auto stretched = stretching(x, loads, j, c.side)) f(numbering_.location[j]) += stretched->value;
   }
   add_strand_forces(x, loads, f);
+  add_dragged_pushes(x, loads, f);
   if (slide_at_ < 0) return f;
   f(numbering_.slide) = slides_ ? x(slide_at_ + 1) : -x(slide_at_);
   for (int j = 0; j < joint_count(); ++j) {

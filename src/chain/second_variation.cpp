@@ -175,6 +175,7 @@ Sparse Chain::jacobian(const VectorXd& x, const Loads& loads) const {
   }
   add_locations(x, loads, dense);
   add_couplings(Purpose::equilibrium, numbering_, x, dense);
+  add_dragged_pushes(x, loads, dense);
   std::vector<Triplet> entries;
   for (Eigen::Index i = 0; i < dense_size_; ++i)
     for (Eigen::Index j = 0; j < dense_size_; ++j)

@@ -96,6 +96,8 @@ std::unique_ptr<Joint> contact_joint(const RodKind& rod, const Topology& t, int 
   if (left == Stretch::line && right == Stretch::line)
     throw std::invalid_argument("two line contacts cannot meet at a joint");
   if (left != Stretch::line && right != Stretch::line) {
+    if (seat.strand != 0 && seat.flat >= 0)
+      return std::make_unique<spatial::FlatStrand>(rod.obstacles.pointer(seat.flat));
     if (seat.strand != 0) return std::make_unique<spatial::Strand>();
     if (t.touches_flat(joint))
       return std::make_unique<spatial::FlatTouch>(rod.obstacles.pointer(obstacle),
@@ -284,7 +286,10 @@ std::string Topology::text() const {
     if (i > 0 && strands.inside_line(link)) continue;  // of a line its ends are named
     const bool touch = i > 0 && (all[i] == Stretch::line) == (all[i - 1] == Stretch::line);
     const bool strand = i > 0 && whole.seat(static_cast<int>(i)).strand != 0;
-    if (i > 0) text += !touch ? " " : strand ? " cross " : " " + named("touch", i) + " ";
+    if (i > 0)
+      text += !touch   ? " "
+              : strand ? whole.touches_flat(link) ? " " + named("cross", i) + " " : " cross "
+                       : " " + named("touch", i) + " ";
     if (const int line = strands.line_along(link); line >= 0)
       text += all[i] == Stretch::line && !strands.lines()[line].on_obstacles ? "lines on" : "lines";
     else

@@ -223,6 +223,20 @@ Centreline Strand::centreline(const double* w) const {
 
 Attachment Pressed::attach(Side, const double* w, const Loads&) const { return lying(w); }
 
+std::optional<Joint::Drag> Pressed::drag_of_push(const double* w, const Loads& loads,
+                                                 const Vector3d& force) const {
+  if (!(loads.friction > 0.0) || !surface_->slips()) return std::nullopt;
+  const obstacle::Chart here = chart(w);
+  const rod::Slip slip = rod::slip(w[2], loads.travel);
+  const double mu = -loads.friction, pressed = here.normal.dot(force);
+  Drag out{SmallVector::Zero(4), SmallMatrix::Zero(4, 4), SmallMatrix::Zero(4, 3)};
+  out.value.head<2>() = mu * pressed * slip.d;
+  out.by_w.topLeftCorner<2, 2>() = mu * slip.d * here.normal_slope(force).transpose();
+  out.by_w.block<2, 1>(0, 2) = mu * pressed * slip.by_psi;
+  out.by_gradient.topRows<2>() = mu * slip.d * here.normal.transpose();
+  return out;
+}
+
 Centreline Pressed::centreline(const double* w) const {
   const obstacle::Chart here = chart(w);
   const double c = std::cos(w[2]), s = std::sin(w[2]);

@@ -65,21 +65,20 @@ std::optional<double> foot(const SplineRod::Controls& controls, const Point& at)
   return std::nullopt;
 }
 
-}  // namespace
-
-std::vector<StrandPair> strand_pairs(const SplineRod& rod, const SplineRod::Vector& x, double reach,
-                                     double apart) {
-  const int n = rod.elements();
+/// Elements from `begin` to `end`, first places on those from `first` on.
+template <class Rod>
+std::vector<StrandPair> pairs_of(const Rod& rod, const SplineRod::Vector& x, int begin, int first, int end,
+                                 double reach, double apart) {
   std::vector<Point> middles;
   double longest = 0.0;
-  for (int e = -n; e < n; ++e) {
+  for (int e = begin; e < end; ++e) {
     middles.push_back(rod.position(x, e, 0.5));
     longest = std::max(longest, rod.length(e));
   }
-  const CellList cells(middles, -n, reach + longest);
+  const CellList cells(middles, begin, reach + longest);
   std::vector<StrandPair> out;
   std::vector<int> candidates;
-  for (int e = 0; e < n; ++e)
+  for (int e = first; e < end; ++e)
     for (int q = 0; q < Quadrature::points; ++q) {
       const double t = Quadrature::place[q], s = rod.knot(e) + t * rod.length(e);
       const Point at = rod.position(x, e, t);
@@ -88,7 +87,7 @@ std::vector<StrandPair> strand_pairs(const SplineRod& rod, const SplineRod::Vect
         if (other == e ||
             std::abs(rod.knot(other) + 0.5 * rod.length(other) - s) < apart - 0.5 * rod.length(other))
           continue;
-        if ((middles[other + n] - at).norm() > reach + rod.length(other)) continue;
+        if ((middles[other - begin] - at).norm() > reach + rod.length(other)) continue;
         const auto controls = rod.controls(x, other);
         const auto at_foot = foot(controls, at);
         if (!at_foot || std::abs(rod.knot(other) + *at_foot * rod.length(other) - s) < apart) continue;
@@ -98,6 +97,18 @@ std::vector<StrandPair> strand_pairs(const SplineRod& rod, const SplineRod::Vect
       }
     }
   return out;
+}
+
+}  // namespace
+
+std::vector<StrandPair> strand_pairs(const SplineRod& rod, const SplineRod::Vector& x, double reach,
+                                     double apart) {
+  return pairs_of(rod, x, -rod.elements(), 0, rod.elements(), reach, apart);
+}
+
+std::vector<StrandPair> strand_pairs(const OpenSpline& rod, const OpenSpline::Vector& x, double reach,
+                                     double apart) {
+  return pairs_of(rod, x, 0, 0, rod.elements(), reach, apart);
 }
 
 }  // namespace windlass::discrete_rod

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "thick_sum.hpp"
+#include "windlass/discrete_rod/strand_term.hpp"
 
 namespace windlass::discrete_rod {
 
@@ -39,30 +40,17 @@ std::vector<StrandPair> ThickEnergy::touching(const Vector& x) const {
 
 void ThickEnergy::add_strands(const Vector& x, Sum& sum) const {
   if (penalties.strands <= 0.0) return;
-  using Shape24 = Eigen::Matrix<double, 3, 24>;
   using Vector24 = Eigen::Matrix<double, 24, 1>;
   for (const StrandPair& pair : touching(x)) {
     const double d = pair.distance, depth = 2.0 * radius_ + penalties.strand_shift - d,
                  weight = 0.5 * pair.weight * penalties.strands;
     sum.value += 0.5 * weight * depth * depth;
     if (!sum.derivatives) continue;
-    const SplineRod::Controls there = rod_.controls(x, pair.other);
-    const Vector3d gap = rod_.position(x, pair.element, pair.t) - there * cubic_weights(pair.other_t, 0),
-                   slope = there * cubic_weights(pair.other_t, 1),
-                   bend = there * cubic_weights(pair.other_t, 2);
-    Shape24 apart, turn = Shape24::Zero();  // of the gap, and of its derivative along the other strand
-    apart << shape(pair.t, 0), -shape(pair.other_t, 0);
-    turn.rightCols<12>() = -shape(pair.other_t, 1);
-    // f = ½ d² has its minimum over the other's place: f_cc − f_cσ f_σc/f_σσ is its second derivative.
-    const Vector24 mixed = turn.transpose() * gap - apart.transpose() * slope;
-    const Vector24 d_slope = apart.transpose() * gap / d;
-    const Eigen::Matrix<double, 24, 24> d_curvature =
-        (apart.transpose() * apart - mixed * mixed.transpose() / (slope.squaredNorm() - gap.dot(bend)) -
-         d_slope * d_slope.transpose()) /
-        d;
+    const StrandDistance of = discrete_rod::strand_distance(rod_.controls(x, pair.element), pair.t,
+                                                            rod_.controls(x, pair.other), pair.other_t, d);
     const Eigen::Matrix<double, 24, 24> hessian =
-        weight * (d_slope * d_slope.transpose() - depth * d_curvature);
-    Local({pair.element, pair.other}).add(Vector24(-weight * depth * d_slope), hessian, sum);
+        weight * (of.slope * of.slope.transpose() - depth * of.curvature);
+    Local({pair.element, pair.other}).add(Vector24(-weight * depth * of.slope), hessian, sum);
   }
 }
 

@@ -364,7 +364,8 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
     events.push_back({Kind::force, c.joint,
                       c.force + (c.coupling < 0 ? 0.0 : carried_pull(profile, strands, c.joint)), c.s});
     events.back().redrawn = strands.inside_line(c.joint);
-    if (c.reaction) events.push_back(reaction_event(profile, c));
+    // In a plate the reaction is that force itself.
+    if (c.reaction && !topology.touches_flat(c.joint)) events.push_back(reaction_event(profile, c));
     // Of a line between strands g'' = 0.
     if (c.edge || strands.line_of(c.joint) >= 0 || before_flat_tail(profile, topology, c)) continue;
     const double bend = c.gap_curvature - least_curvature_at(profile, c);

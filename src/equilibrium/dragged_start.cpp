@@ -165,6 +165,100 @@ Started flat_on_plate(const scene::Scene& scene, const std::vector<std::string>&
   return *laid;
 }
 
+namespace {
+
+/// Where the right tail of a flat coil crosses the left one: the first place behind its contact in the plane of symmetry.
+std::optional<double> tails_cross(const chain::Profile& shape) {
+  const Piece& tail = shape.pieces.back();
+  for (Eigen::Index k = 1; k < tail.s.size(); ++k) {
+    const double before = tail.r(0, k - 1), after = tail.r(0, k);
+    if (before * after > 0.0 || after == before) continue;
+    return tail.s(k - 1) + (tail.s(k) - tail.s(k - 1)) * before / (before - after);
+  }
+  return std::nullopt;
+}
+
+/// The flat coil on its plate with its left tail pressed down by 2r where it passes below the right one, which lies in the plate.
+/// The left part of the contact then leaves the plate a little before its edge: a beam pressed up by mu p, and by mu f at its free
+/// end d away, is held down by the other tail's λ, c behind that, λ (d + c) = mu f d + ½ mu p d².
+Layout pressed_below(const chain::Profile& shape, double crossing, const scene::Scene& scene,
+                     chain::Profile& bent) {
+  const contact::Loads loads = loads_of(scene);
+  const double edge = shape.pieces.back().s(0), c = crossing - edge, r = scene.rod_radius;
+  const double mu = loads.friction, p = mu * shape.pieces[1].p(0);
+  const double f = mu * shape.contacts.back().force;
+  const double push = 2.0 * r * (loads.tension / c + 3.0 / (c * c * c)), rest = f - push;
+  const double d = (std::sqrt(rest * rest + 2.0 * p * push * c) - rest) / p;
+  Layout out;
+  out.topology.half = false;
+  out.topology.stretches = {Stretch::tail, Stretch::gap, Stretch::line,
+                            Stretch::line, Stretch::gap, Stretch::tail};
+  out.topology.on.resize(7);
+  out.s = {-loads.half_length, -crossing, -edge, d - edge, edge, crossing, loads.half_length};
+  out.topology.on[1].strand = 1;
+  out.topology.on[3].flat = plate;
+  out.topology.on[5] = {plate, 1};
+  out.topology.on[5].flat = plate;
+  for (std::size_t i = 0; i < out.topology.stretches.size(); ++i)
+    out.meshes.push_back(first_mesh(out.topology.stretches[i], loads, out.s[i + 1] - out.s[i]));
+  out.meshes.front() = reversed(out.meshes.front());
+  bent = shape;
+  for (Piece& piece : bent.pieces)
+    for (Eigen::Index k = 0; k < piece.s.size(); ++k)
+      if (const double down = d - edge - piece.s(k); down > 0.0)
+        piece.r(2, k) -= 2.0 * r * std::min(1.0, down * down / ((c + d) * (c + d)));
+  return out;
+}
+
+/// A coil so thick that its tails pass each other, from a thin one on the plate.
+std::optional<Started> crossing_on_plate(const scene::Scene& scene, const std::vector<std::string>& keys,
+                                         std::string& failure) {
+  scene::Scene thin = scene;
+  thin.self_contact = false;
+  const Started flat = flat_on_plate(thin, keys);
+  const chain::Profile shape = flat.problem->profile(flat.x, flat.p);
+  const std::optional<double> crossing = tails_cross(shape);
+  if (!crossing) {
+    auto problem =
+        std::make_shared<RodProblem>(scene, true, flat.problem->topology(), flat.problem->meshes(), keys);
+    return Started{problem, flat.x, problem->parameters(), flat.newton_iterations};
+  }
+  if (shape.pieces.size() != 3 || shape.pieces[1].s.tail<1>()(0) > M_PI) {  // on touches, or on itself
+    failure = "its turns would lie on each other, which is not built for a coil on a plate";
+    if (shape.pieces.size() != 3) failure = "it has no line contact to start from";
+    return std::nullopt;
+  }
+  failure = "pressed apart where they cross, the tails of the flat coil were not balanced";
+  for (double radius = std::min(0.01, scene.rod_radius); radius > 1e-5; radius *= 0.3) {
+    scene::Scene slender = scene;
+    slender.rod_radius = radius;
+    chain::Profile bent;
+    Layout layout = pressed_below(shape, *crossing, slender, bent);
+    auto start = on_contacts(std::move(layout), bent, 0.0, slender, {"rod.radius"}, {});
+    if (!start || !contacts_hold(*start->problem, start->x, start->p)) continue;
+    auto reached = reach(*start, scene, scene.rod_radius, false, keys, failure);
+    if (!reached) failure = "from the thin rod no thick one was reached: " + failure;
+    return reached;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Started coil_on_plate(const scene::Scene& scene, const std::vector<std::string>& keys) {
+  if (!(scene.strand_radius() > 0.0)) return flat_on_plate(scene, keys);
+  std::string failure;
+  // Thin tails cross on lines where the tension is high, and hang on touches where it is low.
+  constexpr double loose = 2.0, low = 0.6, high = 5.0;
+  if (scene.load.tension > low && scene.load.tension < high)
+    if (auto found = crossing_on_plate(scene, keys, failure)) return *found;
+  scene::Scene moderate = scene;
+  moderate.load.tension = loose;
+  if (const auto from = crossing_on_plate(moderate, {"load.tension"}, failure))
+    if (auto found = reach(*from, scene, scene.load.tension, false, keys, failure)) return *found;
+  throw NoEquilibrium("no coil of this thickness was found on the plate: " + failure);
+}
+
 std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector<std::string>& keys,
                                     std::string& searched) {
   constexpr double flat = 1e-6;  // [ρ]

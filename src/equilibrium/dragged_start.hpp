@@ -13,6 +13,10 @@ namespace windlass::equilibrium {
 /// @throws NoEquilibrium
 Started flat_on_plate(const scene::Scene& scene, const std::vector<std::string>& keys);
 
+/// The same of a rod of any thickness: one whose tails cross has the right one in the plate, and the left one below it.
+/// @throws NoEquilibrium
+Started coil_on_plate(const scene::Scene& scene, const std::vector<std::string>& keys);
+
 /// A state without friction, put under the plate: its highest tail touches the plate, and the rest of that tail lies flat in it.
 /// The cylinder drags by a little friction; continuation in it leads to the scene's.
 /// @param still    in contact with the cylinder only; one or both of its tails rise to its highest place

@@ -310,7 +310,7 @@ Solution record(RodProblem& problem, const Vector& x, const Vector& p) {
     (scene.has_cylinder && joint.obstacle > 0 ? out.plate_force : out.R_tot) += joint.force;
   if (scene.has_cylinder) {
     if (scene.friction) out.F0 = *scene.friction * out.R_tot;
-    record_drag(problem, x, scene, out);
+    record_drag(problem, x, loads, scene, out);
   } else {
     const ArcRecord& last = out.arcs.back();
     out.end_force = 0.0 - last.n(0, last.n.cols() - 1);  // never −0

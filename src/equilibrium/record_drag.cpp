@@ -11,32 +11,58 @@ using Eigen::Vector3d;
 
 namespace {
 
+/// Of each arc of the record, its link: what vanishes at an event has none.
+std::vector<int> links_of(const Solution& state, const RodProblem& problem, const Vector& x,
+                          const contact::Loads& loads) {
+  std::vector<int> out;
+  int link = 0;
+  for (const ArcRecord& arc : state.arcs) {
+    while (link + 1 < problem.chain().link_count() &&
+           (problem.chain().arclength(x, loads, link) != arc.s_begin ||
+            problem.chain().arclength(x, loads, link + 1) != arc.s_end))
+      ++link;
+    out.push_back(link++);
+  }
+  return out;
+}
+
+/// Does an arc of the record begin where cylinder and plate hold the rod at once?
+bool begins_flat(const Topology& topology, const std::vector<int>& links, std::size_t k) {
+  return topology.lies_flat(links[k]) || (k > 0 && topology.lies_flat(links[k - 1])) ||
+         topology.touches_flat(links[k]);
+}
+
 /// mu N d_z of the contacts where the rod lies on a plate, too: it takes the friction on the spot. @returns the sum
-double drag_on_plate(Solution& state, const Topology& topology, double upward) {
+double drag_on_plate(Solution& state, const Topology& topology, const std::vector<int>& links,
+                     double upward) {
   double sum = 0.0;
-  for (int k = 0; k < static_cast<int>(state.arcs.size()); ++k) {
-    ArcRecord& arc = state.arcs[static_cast<std::size_t>(k)];
-    JointRecord& joint = state.joints[static_cast<std::size_t>(k)];
-    if (topology.lies_flat(k)) arc.plate_force = upward * arc.force;
-    const bool flat = topology.lies_flat(k) || topology.lies_flat(k - 1) || topology.touches_flat(k);
+  for (std::size_t k = 0; k < state.arcs.size(); ++k) {
+    ArcRecord& arc = state.arcs[k];
+    JointRecord& joint = state.joints[k];
+    if (topology.lies_flat(links[k])) arc.plate_force = upward * arc.force;
+    const bool flat = begins_flat(topology, links, k);
     if (flat && joint.obstacle == 0) joint.plate_force = upward * joint.force;
     sum += arc.plate_force + joint.plate_force;
   }
   return sum;
 }
 
+/// What another strand pushes a joint with.
+Vector3d push_of_strand(const Solution& state, const JointRecord& joint) {
+  return joint.partner < 0 ? Vector3d::Zero() : Vector3d(joint.strand_force * strand_direction(state, joint));
+}
+
 /// The same of the other contacts: what they take of the force along the axis.
-double axial_drag(const Solution& state, const Topology& topology) {
+double axial_drag(const Solution& state, const Topology& topology, const std::vector<int>& links) {
   double sum = 0.0;
-  for (int k = 0; k < static_cast<int>(state.arcs.size()); ++k) {
-    if (topology.lies_flat(k)) continue;
-    const ArcRecord& arc = state.arcs[static_cast<std::size_t>(k)];
+  for (std::size_t k = 0; k < state.arcs.size(); ++k) {
+    if (topology.lies_flat(links[k])) continue;
+    const ArcRecord& arc = state.arcs[k];
     if (arc.kind == ArcKind::line && arc.obstacle == 0) sum += arc.n(2, 0) - arc.n(2, arc.n.cols() - 1);
-    if (k == 0 || topology.lies_flat(k - 1) || topology.touches_flat(k) ||
-        state.joints[static_cast<std::size_t>(k)].obstacle != 0)
-      continue;
-    const ArcRecord& before = state.arcs[static_cast<std::size_t>(k - 1)];
-    sum += before.n(2, before.n.cols() - 1) - arc.n(2, 0);
+    const JointRecord& joint = state.joints[k];
+    if (k == 0 || begins_flat(topology, links, k) || joint.obstacle != 0) continue;
+    const ArcRecord& before = state.arcs[k - 1];
+    sum += before.n(2, before.n.cols() - 1) - arc.n(2, 0) - push_of_strand(state, joint)(2);
   }
   return sum;
 }
@@ -50,7 +76,7 @@ void measure_drag(Solution& out, double friction) {
     const JointRecord& joint = out.joints[k];
     const ArcRecord &before = out.arcs[k - 1], &after = out.arcs[k];
     const Vector3d t = rod::directors(after.q.col(0)).col(2);
-    Vector3d force = joint.force * joint.normal;
+    Vector3d force = joint.force * joint.normal + push_of_strand(out, joint);
     if (joint.obstacle == 0)
       force += joint.force * friction * (Vector3d::UnitZ() - out.travel_rate * t).normalized();
     const Vector3d rest = before.n.rightCols<1>() - after.n.col(0) - force;
@@ -58,7 +84,8 @@ void measure_drag(Solution& out, double friction) {
   }
 }
 
-void record_drag(const RodProblem& problem, const Vector& x, const scene::Scene& scene, Solution& out) {
+void record_drag(const RodProblem& problem, const Vector& x, const contact::Loads& loads,
+                 const scene::Scene& scene, Solution& out) {
   if (!scene.slides()) return;
   out.dragged = true;
   if (!problem.spatial()) {
@@ -77,9 +104,10 @@ void record_drag(const RodProblem& problem, const Vector& x, const scene::Scene&
   const double travelled = problem.chain().travelled(x);
   (scene.ends.travel == scene::Travel::free ? out.travel_rate : out.pull_difference) = travelled;
   const double upward = *scene.friction / std::sqrt(1.0 + out.travel_rate * out.travel_rate);
-  const double on_plate = drag_on_plate(out, problem.topology(), upward);
+  const std::vector<int> links = links_of(out, problem, x, loads);
+  const double on_plate = drag_on_plate(out, problem.topology(), links, upward);
   out.plate_force += on_plate;
-  out.F0 = on_plate + axial_drag(out, problem.topology());
+  out.F0 = on_plate + axial_drag(out, problem.topology(), links);
 }
 
 }  // namespace windlass::equilibrium

@@ -6,7 +6,8 @@
 namespace windlass::equilibrium {
 
 /// Of a cylinder that slips along the rod, and the plate that holds it back.
-void record_drag(const RodProblem& problem, const Vector& x, const scene::Scene& scene, Solution& out);
+void record_drag(const RodProblem& problem, const Vector& x, const contact::Loads& loads,
+                 const scene::Scene& scene, Solution& out);
 
 /// Of a dragged state only what friction leaves is conserved: the axial torque where the rod does not run along itself.
 /// The residual of the forces is that of the contacts of the cylinder, across the axis: N (e_r + mu d).

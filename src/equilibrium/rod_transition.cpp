@@ -21,8 +21,15 @@ using Kind = ContactEvent::Kind;
 std::optional<std::string> vanishing_with(const chain::Profile& shape, const Topology& topology, double s) {
   const double least = least_length * shape.unit_length;
   std::optional<std::string> name;
+  const chain::Strands strands(topology);
+  const auto touches_there = [&](const ContactEvent& event) {  // of two strands, either of them
+    const int partner = strands.partner(event.place);
+    return std::any_of(shape.contacts.begin(), shape.contacts.end(), [&](const chain::Contact& c) {
+      return (c.joint == event.place || c.joint == partner) && std::abs(c.s - s) < 10.0 * least;
+    });
+  };
   for (const ContactEvent& event : contact_events(shape, topology)) {
-    if (event.kind == Kind::curvature && std::abs(event.s - s) < 10.0 * least) return event.name();
+    if (event.kind == Kind::curvature && touches_there(event)) return event.name();
     const bool unpressed = event.kind == Kind::buckling && shape.pieces[event.place].buckling;
     if (event.kind != Kind::pressure && !unpressed) continue;
     const Eigen::VectorXd& places = shape.pieces[event.place].s;

@@ -173,23 +173,33 @@ Equilibria solve_dragged(const scene::Scene& scene, const std::vector<std::strin
   std::string searched, why;
   std::vector<Started> found = dragged_states(scene, keys, searched);
   try {
-    found.insert(found.begin(), flat_on_plate(scene, keys));
+    found.insert(found.begin(), coil_on_plate(scene, keys));
   } catch (const NoEquilibrium& none) {
     why = none.what();
   }
   if (found.empty())
     throw NoEquilibrium(why + "; nor a state that has left the plate, searched: " + searched);
   Equilibria out;
+  std::vector<Vector> seen;  // without friction thick states may lead to the coil on its plate, too
   for (Started& state : found) {
-    Solution solution = finish(state, why.empty() ? "the flat coil, which lies on the plate along its contact"
-                                                  : "there is no flat coil");
+    const Vector fingerprint = state.problem->fingerprint(state.x, state.p);
+    if (std::ranges::any_of(seen, [&](const Vector& other) {
+          return continuation::same_fingerprint(other, fingerprint, same_state);
+        }))
+      continue;
+    seen.push_back(fingerprint);
+    Solution solution =
+        finish(state, !why.empty() ? "there is no flat coil"
+                      : scene.strand_radius() > 0.0
+                          ? "the coil that lies on the plate, but for what passes below its other end"
+                          : "the flat coil, which lies on the plate along its contact");
     out.states.push_back(summary_of(solution, scene, state.problem->total_index(state.x, state.p)));
     if (out.states.size() == 1) out.answer = std::move(solution);
   }
   out.answer.model_reason += fmt::format(
       "; {} steady states were found ({}), which of them a pull from rest "
       "selects was not decided",
-      found.size(), searched);
+      out.states.size(), searched);
   return out;
 }
 

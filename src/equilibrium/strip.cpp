@@ -72,11 +72,23 @@ int Strip::part_at(double at) const {
   return i;
 }
 
+int Strip::plate_beside(int i) const {
+  int plate = -1;
+  for (const int joint : {i, i + 1}) {
+    const bool before = is_line(joint - 1), after = is_line(joint);
+    if (before && after) continue;
+    plate = std::max(plate, before ? on[joint - 1].flat : on[joint].flat);  // of a line its beginning says so
+  }
+  return plate;
+}
+
 void Strip::cut(int i, double at, chain::Seat contact) {
   if (parts[i].kind == Stretch::line) {
     contact.obstacle = on[i].obstacle;
     return split(i, at, Stretch::line, Stretch::line, contact);
   }
+  if (const int plate = plate_beside(i); contact.strand != 0 && plate >= 0)
+    contact.obstacle = contact.flat = plate;
   const bool left_tail = !half && i == 0, alone = parts.size() == 1;
   const bool right_tail = parts[i].kind == Stretch::tail && (!left_tail || alone);
   split(i, at, left_tail ? Stretch::tail : Stretch::gap, right_tail ? Stretch::tail : Stretch::gap, contact);

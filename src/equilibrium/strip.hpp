@@ -37,6 +37,8 @@ struct Strip {
   /// Splits part i at s into (i, left) and (i + 1, right), by a contact with what is given, else on the obstacle of the part's
   /// first bound.
   void split(int i, double at, chain::Stretch left, chain::Stretch right, std::optional<chain::Seat> on = {});
+  /// The plate that a free part lies in, for it ends where the rod touches one along with something else; −1: none.
+  int plate_beside(int part) const;
   /// The part that s lies in.
   int part_at(double at) const;
   /// Cuts part i at s by a contact: free on both sides of it, or a line that another strand presses on, on the line's obstacle.

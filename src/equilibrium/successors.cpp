@@ -108,6 +108,17 @@ bool is_symmetric(const Successor& next) { return symmetric(next.topology, next.
 
 }  // namespace
 
+namespace {
+
+/// Does a strand press on a line that lies on cylinder and plate at once? No joint is that yet.
+bool presses_on_flat_line(const Topology& topology) {
+  for (int j = 1; j < static_cast<int>(topology.on.size()); ++j)
+    if (topology.on[j].strand != 0 && (topology.lies_flat(j - 1) || topology.lies_flat(j))) return true;
+  return false;
+}
+
+}  // namespace
+
 std::vector<Successor> successors(const ContactEvent& event, const Profile& profile, const Topology& topology,
                                   const std::vector<double>& s) {
   std::vector<Successor> out;
@@ -125,6 +136,7 @@ std::vector<Successor> successors(const ContactEvent& event, const Profile& prof
     measure_parts(strip);
     next.topology = strip.successor().topology;
   }
+  std::erase_if(out, [](const Successor& next) { return presses_on_flat_line(next.topology); });
   return out;
 }
 

@@ -6,6 +6,7 @@
 
 #include "windlass/discrete_rod/bending_density.hpp"
 #include "windlass/discrete_rod/strand_pairs.hpp"
+#include "windlass/discrete_rod/strand_term.hpp"
 #include "windlass/pull/rounded.hpp"
 
 namespace windlass::pull {
@@ -172,6 +173,31 @@ void DraggedRod::add_ends(const Vector& u, Vector& residual,
   if (setting.blocked) residual(travel) = lead;
 }
 
+/// Strands that touch: places of one that are nearer than 2r to another, the corner of the bed rounded like those of the others.
+void DraggedRod::add_strands(const Vector& u, Vector& residual,
+                             std::vector<Eigen::Triplet<double>>* entries) const {
+  if (!(setting.radius > 0.0)) return;
+  const double reach = 2.0 * setting.radius;
+  for (const discrete_rod::StrandPair& pair :
+       discrete_rod::strand_pairs(spline_, u, reach + rounding_, M_PI * setting.radius)) {
+    const discrete_rod::StrandDistance apart =
+        discrete_rod::strand_distance(Spline::controls(u, pair.element), pair.t,
+                                      Spline::controls(u, pair.other), pair.other_t, pair.distance);
+    const auto [depth, slope] = rounded(reach - pair.distance, rounding_);
+    const double weight = 0.5 * bed_ * pair.weight;
+    const auto place = [&](int k) {
+      return k < 12 ? Spline::begin(pair.element) + k : Spline::begin(pair.other) + k - 12;
+    };
+    for (int k = 0; k < 24; ++k) residual(place(k)) -= weight * depth * apart.slope(k);
+    if (!entries) continue;
+    for (int k = 0; k < 24; ++k)
+      for (int j = 0; j < 24; ++j)
+        entries->emplace_back(
+            place(k), place(j),
+            weight * (slope * apart.slope(k) * apart.slope(j) - depth * apart.curvature(k, j)));
+  }
+}
+
 void DraggedRod::evaluate(const Vector& u, const Memory& last, const Step& step, Vector& residual,
                           Sparse* matrix) const {
   residual = Vector::Zero(size());
@@ -189,6 +215,7 @@ void DraggedRod::evaluate(const Vector& u, const Memory& last, const Step& step,
       for (int j = 0; j < 13; ++j) entries.emplace_back(place(k), place(j), local.matrix(k, j));
   }
   add_ends(u, residual, matrix ? &entries : nullptr);
+  add_strands(u, residual, matrix ? &entries : nullptr);
   if (!matrix) return;
   matrix->resize(size(), size());
   matrix->setFromTriplets(entries.begin(), entries.end());

@@ -109,6 +109,10 @@ bool agree(const Plateau& at, const equilibrium::StateSummary& state, double for
 
 std::optional<equilibrium::StateSummary> polished(const Pull& pull, const Plateau& at,
                                                   const scene::Scene& scene, std::string& failure) {
+  if (scene.strand_radius() > 0.0) {
+    failure = "where strands touch is not read off a pull";
+    return std::nullopt;
+  }
   // With the slip remembered all of the contact is at the limit of friction, in the direction that it slips.
   const std::vector<PlaceLoad> loads =
       pull.rod().loads(pull.state().unknowns, pull.memory(), {0.0, 0.0, true});

@@ -56,6 +56,7 @@ Setting setting_of(const scene::Scene& natural) {
   out.tension = natural.load.tension;
   out.angle = natural.load.angle;
   out.plate = natural.plate ? natural.plate->height : 0.0;
+  out.radius = natural.strand_radius();
   out.blocked = natural.ends.travel == scene::Travel::blocked;
   out.coulomb.friction = natural.friction.value_or(0.0);
   return out;

@@ -29,7 +29,13 @@ PetscErrorCode StepSolver::linearise(SNES, Vec in, Mat matrix, Mat, void* contex
     petsc::copy(in, u);
     DraggedRod::Sparse jacobian;
     self.rod_.evaluate(u, *self.last_, self.step_, residual, &jacobian);
-    check(MatCopy(petsc::aij(jacobian), matrix, SAME_NONZERO_PATTERN));
+    const petsc::MatHandle now = petsc::aij(jacobian);
+    if (!(self.rod_.setting.radius > 0.0)) {
+      check(MatCopy(now, matrix, SAME_NONZERO_PATTERN));
+      return;
+    }
+    check(MatZeroEntries(matrix));  // where strands touch the pattern grows
+    check(MatCopy(now, matrix, DIFFERENT_NONZERO_PATTERN));
   });
 }
 
@@ -53,6 +59,7 @@ StepSolver::StepSolver(const DraggedRod& rod) : rod_(rod) {
   DraggedRod::Sparse pattern;
   rod.evaluate(u, memory, {}, residual, &pattern);
   matrix_ = petsc::aij(pattern);
+  check(MatSetOption(matrix_, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
   solution_ = petsc::zero_vector(rod.size());
   residual_ = petsc::zero_vector(rod.size());
   check(SNESCreate(PETSC_COMM_SELF, snes_.put()));

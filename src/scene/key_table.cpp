@@ -244,12 +244,24 @@ std::vector<Key> load_keys() {
                .get = [](const Scene& scene) { return scene.friction; },
                .set = [](Scene& scene, double value) { scene.friction = value; },
                .is_parameter = true};
+  Key couple{.name = "cylinder.friction_couple",
+             .kind = ValueKind::truth,
+             .range = any,
+             .choices = {},
+             .help =
+                 "while sliding, of a rod that may touch itself: has the friction, which acts at the rod's "
+                 "surface, a moment about its centre line? default: true",
+             .get = [](const Scene& scene) -> std::optional<double> {
+               return scene.motion.friction_couple ? std::nullopt : std::optional(0.0);
+             },
+             .set = [](Scene& scene, double value) { scene.motion.friction_couple = value != 0.0; }};
   return {
       derived("cylinder.radius", Dimension::length, positive, "radius R; dimensionless: 1 - rod.radius"),
       friction,
       word<&Scene::motion, &Motion::sliding, sliding_words>(
           "cylinder.sliding",
           "up: the cylinder moves along +e_z and slips everywhere on the rod, which a plate holds back"),
+      couple,
       parameter<&Scene::load, &Load::tension>("load.tension", Dimension::force, positive,
                                               "pull T on each end (with a cylinder)"),
       parameter<&Scene::load, &Load::angle>("load.angle", Dimension::angle, positive,

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "document.hpp"
-#include "planned.hpp"
 #include "rules.hpp"
 #include "values.hpp"
 #include "walls.hpp"
@@ -242,7 +241,6 @@ void split_weight(Document& document) {
 Scene read_scene(const std::filesystem::path& path, std::span<const std::string> overrides,
                  const ReadOptions& options) {
   Document document = read_document(path, overrides);
-  settle_planned(document);
   split_weight(document);
   drop_values_of_another_parameter(document);
   if (options.restart)

@@ -151,10 +151,16 @@ void check_sliding(const Document& document, const Scene& scene) {
   if (scene.plate->side != PlateSide::above)
     refuse("plate.side",
            "must be \"above\" with cylinder.sliding = \"up\", or the cylinder would carry the rod away");
-  if (scene.self_contact)
-    refuse("rod.self_contact",
-           "must be false with cylinder.sliding = \"up\": the friction of rods that touch themselves is not "
-           "built yet");
+  if (scene.self_contact && scene.motion.friction_couple)
+    refuse("cylinder.friction_couple",
+           "must be false for a rod that may touch itself: the moment of the friction about its centre line "
+           "is not built yet");
+  if (scene.self_contact &&
+      (scene.ends.left_kind() == EndKind::clamped || scene.ends.right_kind() == EndKind::clamped))
+    refuse("ends.kind",
+           "must be \"moment_free\" for a rod that may touch itself with cylinder.sliding = \"up\": where it "
+           "is twisted "
+           "no tail lies flat in the plate");
   if (!scene.rod.isotropic_straight())
     refuse("cylinder.sliding", "needs an isotropic, naturally straight rod");
 }

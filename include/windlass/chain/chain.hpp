@@ -353,6 +353,9 @@ class Chain {
   /// Of the couplings: their forces and conditions, to a residual; their derivatives, to a dense block.
   void add_strand_forces(const VectorXd& x, const Loads& loads, VectorXd& f) const;
   void add_couplings(Purpose purpose, const Numbering& numbering, const VectorXd& x, MatrixXd& dense) const;
+  /// Adds what those forces drag where the cylinder slips: to a residual, and its derivatives to the equilibrium's block.
+  void add_dragged_pushes(const VectorXd& x, const Loads& loads, VectorXd& f) const;
+  void add_dragged_pushes(const VectorXd& x, const Loads& loads, MatrixXd& dense) const;
   /// X_b − X_a of a link's ends.
   contact::SmallVector rise(const VectorXd& x, const Placed& placed, int link) const;
   /// Adds to a contact's place, rests included.

@@ -106,6 +106,14 @@ class Joint {
     return (void)side, (void)w, (void)loads, (void)g, std::nullopt;
   }
 
+  /// What slips takes, too, of another strand's force on the joint: mu times what of it goes straight to the obstacle. A term of
+  /// the balance equations like Drag, `by_gradient` its derivative with that force (tangent × 3).
+  /// @param force  in the Lagrangian's sign, that against what pushes
+  virtual std::optional<Drag> drag_of_push(const double* w, const Loads& loads,
+                                           const Eigen::Vector3d& force) const {
+    return (void)w, (void)loads, (void)force, std::nullopt;
+  }
+
   /// Degrees of freedom that move a flat rod out of its plane z = 0: zero, by symmetry, as long as nothing pushes.
   virtual std::vector<int> out_of_plane() const { return {}; }
 

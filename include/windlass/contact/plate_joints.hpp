@@ -89,6 +89,35 @@ class FlatTouch final : public VectorJoint {
   double height_;
 };
 
+/// A place where a rod that lies in a plate, free on both sides, touches another strand of the rod: w = (u, ψ, χ), place and
+/// inclination in the plate and the turn about the tangent, 4 degrees of freedom, arclength unknown. As at a FlatTouch frames turn
+/// about the plate's normal and the tangent only. Equations 5 with tangency to the strand: forces in the plate (2), moments about
+/// its normal and the tangent, e·t = 0. What of the strand's force is normal to the plate goes straight to it.
+class FlatStrand final : public VectorJoint {
+ public:
+  explicit FlatStrand(const SurfacePointer& plate) : free_(Side::left, 1.0, plate), pressed_(plate) {}
+  JointKind kind() const override { return JointKind::touch; }
+  int tangent() const override { return 4; }
+  bool locates() const override { return true; }
+  int spin_coordinate() const override { return 3; }
+  int places() const override { return 2; }
+  Attachment attach(Side, const double* w, const Loads& loads) const override {
+    return free_.attach(Side::right, w, loads);
+  }
+  void curvature(Side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
+                 SmallMatrix& out) const override {
+    free_.curvature(Side::right, w, loads, g_q, f, out);
+  }
+  Centreline centreline(const double* w) const override { return pressed_.centreline(w); }
+  void adopt(const Place& place, double* w) const override { free_.adopt(place, w); }
+  const obstacle::Surface* surface() const override { return free_.surface(); }
+  Eigen::Vector2d on_surface(const double* w) const override { return {w[0], w[1]}; }
+
+ private:
+  Edge free_;  ///< its free side
+  Pressed pressed_;
+};
+
 /// Where a line on cylinder and plate leaves the plate and goes on along the cylinder: w = (u₀, χ), 2 degrees of freedom,
 /// arclength unknown. Equations 3: force round the axis, moment along the rod, and no moment about N (the line on the plate
 /// has none, and a plate gives none). The plate's point force is a jump of the force along the axis.

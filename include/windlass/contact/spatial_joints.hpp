@@ -158,7 +158,8 @@ class Strand final : public FreeSection {
 
 /// A place of a line contact that another strand presses on: w = (u, ψ, χ), 4 degrees of freedom, arclength unknown. What of
 /// the strand's force is normal to the obstacle goes straight to it, the rest is a jump of the line's forces along it: ψ
-/// and χ and their moments are continuous. Equations 5 with tangency to the strand, e·t = 0.
+/// and χ and their moments are continuous. Equations 5 with tangency to the strand, e·t = 0. Where a cylinder slips that point
+/// reaction drags, and balance is tested with displacements that it does no work on.
 class Pressed final : public VectorJoint {
  public:
   explicit Pressed(SurfacePointer surface) : surface_(std::move(surface)) {}
@@ -171,6 +172,8 @@ class Pressed final : public VectorJoint {
   double slide(const double* w) const override { return std::cos(w[2]); }
   int places() const override { return 2; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
+  std::optional<Drag> drag_of_push(const double* w, const Loads& loads,
+                                   const Eigen::Vector3d& force) const override;
   Centreline centreline(const double* w) const override;
   void place_curvature(const double* w, const Eigen::Vector3d& f, SmallMatrix& out) const override;
   void adopt(const Place& place, double* w) const override;

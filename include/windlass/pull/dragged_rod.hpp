@@ -11,6 +11,7 @@ namespace windlass::pull {
 struct Setting {
   double tension = 1.0, angle = 0.0;  ///< T, φ
   double plate = 0.0;                 ///< the centre line stays at z <= plate [ρ]
+  double radius = 0.0;                ///< of a rod whose strands keep twice that apart; 0: a thin one [ρ]
   bool blocked = false;  ///< no travel along itself: pulls T ± τ, τ unknown; else both T and it may travel
   Coulomb coulomb;
 };
@@ -57,7 +58,8 @@ struct PlaceLoad {
 /// E = ∫ ½ κ² ds + Σ N_e (l_e − h_e) − (T + τ) e_R·r_R − (T − τ) e_L·r_L; p = κ_c [1 − ϱ]₊, N outward, q by Coulomb's
 /// law (`Coulomb`) from the slip g = g⁰ + (e_θ·(r − r⁰), z − z⁰ − ΔU), all of it at the end of the step (backward Euler),
 /// q in the end's tangent plane. The matrix is exact and unsymmetric. The beds follow the mesh as in
-/// `discrete_rod::minimise`, κ = 4/(3/2 h)⁴: forces are off by O(h³).
+/// `discrete_rod::minimise`, κ = 4/(3/2 h)⁴: forces are off by O(h³). Strands of a thick rod press on each other without friction, by
+/// the same bed in the distance d from each place to the nearest of another strand, −½ κ [2r − d]₊ ∂d/∂c, half of it from either.
 class DraggedRod {
  public:
   using Vector = Eigen::VectorXd;
@@ -75,7 +77,7 @@ class DraggedRod {
   Eigen::Index size() const { return spline_.size() + spline_.elements() + (setting.blocked ? 1 : 0); }
   /// Unknowns of a shape under the pulls alone.
   Vector unknowns(const Vector& controls) const;
-  /// Residual, and with `matrix` its derivative; the pattern is always the same.
+  /// Residual, and with `matrix` its derivative; the pattern is always the same, but where strands touch.
   void evaluate(const Vector& u, const Memory& last, const Step& step, Vector& residual,
                 Sparse* matrix) const;
   /// @param u  end of the step that begins at `last`
@@ -96,6 +98,7 @@ class DraggedRod {
   void add_shape(Local& local) const;
   void add_contact(Local& local, const Memory& last, const Step& step) const;
   void add_ends(const Vector& u, Vector& residual, std::vector<Eigen::Triplet<double>>* entries) const;
+  void add_strands(const Vector& u, Vector& residual, std::vector<Eigen::Triplet<double>>* entries) const;
   Eigen::Index tension(int element) const { return spline_.size() + element; }
 
   Spline spline_;

@@ -66,6 +66,7 @@ struct Plate {
 /// How the cylinder moves.
 struct Motion {
   Sliding sliding = Sliding::none;  ///< along its axis, slipping everywhere on the rod
+  bool friction_couple = true;      ///< of a thick rod: moment of the friction about its centre line
 
   bool operator==(const Motion&) const = default;
 };

@@ -133,6 +133,33 @@ void check_drag(const Joint& joint, Side side) {
   }
 }
 
+/// What a strand's push on a line that slips drags: with it the push does no work on the way e_r + mu d either.
+void check_drag_of_push(const Joint& joint) {
+  const contact::Loads loads = some_loads();
+  const VectorXd w = coordinates(joint);
+  const Eigen::Vector3d push(0.7, -0.4, 0.9);
+  const auto at = [&](const VectorXd& place, const Eigen::Vector3d& force) {
+    return joint.drag_of_push(place.data(), loads, force).value();
+  };
+  const contact::Centreline line = joint.centreline(w.data());
+  const obstacle::Chart here = joint.chart(w.data());
+  const Eigen::Vector3d d = (Eigen::Vector3d::UnitZ() - loads.travel * line.t).normalized();
+  const Eigen::Vector3d reaction = -push.dot(here.normal) * (here.normal + loads.friction * d);
+  // Balance along the surface of push and reaction: rows of the coordinates of the place.
+  const Eigen::Vector2d both = here.tangents.transpose() * (push + reaction);
+  const Eigen::Vector2d tested = (SmallVector(line.dr.transpose() * push) + at(w, push).value).head<2>();
+  BOOST_TEST((both - tested).norm() < 1e-14);
+  for (int k = 0; k < joint.tangent(); ++k) {
+    const SmallVector change =
+        (at(moved(joint, w, k, h), push).value - at(moved(joint, w, k, -h), push).value) / (2.0 * h);
+    BOOST_TEST((change - SmallVector(at(w, push).by_w.col(k))).norm() < bound);
+  }
+  for (int k = 0; k < 3; ++k) {
+    const SmallVector change = at(w, push + Eigen::Vector3d::Unit(k)).value - at(w, push).value;  // linear
+    BOOST_TEST((change - SmallVector(at(w, push).by_gradient.col(k))).norm() < 1e-14);
+  }
+}
+
 void check_location(const char* name, const Joint& joint, int tangent) {
   const VectorXd w = coordinates(joint);
   const SmallVector left = SmallVector::LinSpaced(tangent, 0.3, 0.8),
@@ -170,6 +197,8 @@ BOOST_AUTO_TEST_CASE(joints_on_a_cylinder_that_slips) {
     const obstacle::Chart here = edge.chart(w.data());
     check_slip("edge", edge, free, here.tangents * Eigen::Vector2d(std::cos(w[2]), std::sin(w[2])));
   }
+  check_drag_of_push(Pressed(obstacle::unit_cylinder()));
+  BOOST_TEST(!Pressed(wall()).drag_of_push(w.data(), some_loads(), Eigen::Vector3d::UnitX()).has_value());
 }
 
 BOOST_AUTO_TEST_CASE(attachments_of_planar_joints) {
@@ -193,6 +222,7 @@ BOOST_AUTO_TEST_CASE(attachments_of_spatial_joints) {
   check("section of a line on a wall", SurfaceSection(wall()), {Side::left, Side::right});
   check("stop on a line", Stopped(obstacle::unit_cylinder(), plate(), false), {Side::left, Side::right});
   check("touch on a plate", FlatTouch(obstacle::unit_cylinder(), plate()), {Side::left, Side::right});
+  check("strand in a plate", FlatStrand(plate()), {Side::left, Side::right});
   for (const Side flat : {Side::left, Side::right}) {
     check("edge on a plate", FlatEdge(flat, 1.2, obstacle::unit_cylinder(), plate()),
           {Side::left, Side::right});

@@ -109,15 +109,8 @@ BOOST_AUTO_TEST_CASE(parameters_a_branch_cannot_be_followed_in) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(keys_to_come) {
+BOOST_AUTO_TEST_CASE(what_holds_anyway_may_be_said) {
   const TemporaryFolder folder;
-  for (const char* set : {"cylinder.friction_couple=false"}) {
-    const std::string message = refusal(folder, capstan, set),
-                      key = std::string(set).substr(0, std::string(set).find('='));
-    expect_named(message, key, set);
-    BOOST_TEST(message.find("not built yet") != std::string::npos, message);
-  }
-  // What holds without them may be said.
   for (const char* set :
        {"rod.extensible=false", "rod.axial_stiffness=inf", "rod.self_contact=false", "cylinder.sliding=none",
         "cylinder.friction_couple=true", "ends.travel=free", "knot.kind=none"})
