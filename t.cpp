@@ -1,2 +1,0 @@
-#include "/work/main/src/bvp/collocation_arc.ipp"
-#include "windlass/rod/kirchhoff_density.hpp"
