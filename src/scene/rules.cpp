@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "windlass/scene/keys.hpp"
 
@@ -155,12 +156,13 @@ void check_sliding(const Document& document, const Scene& scene) {
     refuse("cylinder.friction_couple",
            "must be false for a rod that may touch itself: the moment of the friction about its centre line "
            "is not built yet");
-  if (scene.self_contact &&
-      (scene.ends.left_kind() == EndKind::clamped || scene.ends.right_kind() == EndKind::clamped))
-    refuse("ends.kind",
-           "must be \"moment_free\" for a rod that may touch itself with cylinder.sliding = \"up\": where it "
-           "is twisted "
-           "no tail lies flat in the plate");
+  for (const auto& [end, kind] :
+       {std::pair{"ends.left", scene.ends.left_kind()}, {"ends.right", scene.ends.right_kind()}})
+    if (scene.self_contact && kind != EndKind::moment_free)
+      refuse(
+          document.find(end) ? end : "ends.kind",
+          "must be \"moment_free\" for a rod that may touch itself with cylinder.sliding = \"up\": its tail "
+          "would carry torsion, and not lie flat in the plate");
   if (!scene.rod.isotropic_straight())
     refuse("cylinder.sliding", "needs an isotropic, naturally straight rod");
 }
