@@ -27,7 +27,7 @@ nlohmann::json solved(double radius, double tension, const std::vector<std::stri
   std::vector<std::string> settings = {"load.tension=" + std::to_string(tension)};
   settings.insert(settings.end(), more.begin(), more.end());
   std::vector<std::string> command = tied("solve", radius, settings);
-  command.push_back("--json");
+  command.insert(command.end(), {"--json", "--quiet"});  // no progress, however busy the machine is
   const TemporaryFolder folder;
   const Outcome outcome = run_program(command, folder.path());
   BOOST_REQUIRE(outcome.status == 0);
