@@ -1,6 +1,5 @@
 #include "app/stored_point.hpp"
 
-#include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/equilibrium/opening.hpp"
 #include "windlass/equilibrium/record.hpp"
 #include "windlass/equilibrium/start.hpp"
@@ -30,13 +29,11 @@ equilibrium::Stability spectrum_at(const scene::Scene& scene, const equilibrium:
   continuation::Vector x = restart.state, p = problem->parameters();
   // At an event where an arc has no length its rotations have no weight and no sign: the spectrum is that of the state
   // next to it, where it has some.
-  const std::vector<int> vanished = equilibrium::vanished_beside_strands(
-      equilibrium::contact_events(problem->profile(x, p), problem->topology()), problem->topology());
   equilibrium::Stability stability;
   stability.index = stability.inertia_index = known;
-  if (equilibrium::leave_event(*problem, x, p))
-    stability = stability::analyse(*problem, x, p, count, modes, solver);
-  stability.degenerate |= !vanished.empty();
+  const bool left = equilibrium::leave_event(*problem, x, p);
+  if (left) stability = stability::analyse(*problem, x, p, count, modes, solver);
+  stability.degenerate |= !left || x != restart.state;
   return stability;
 }
 

@@ -96,10 +96,9 @@ std::optional<double> layout_precision(const RodProblem& problem, const Vector& 
   if (links_of_lines(problem.topology()) == 0) return precision;
   tried([&] {
     Entry own{std::static_pointer_cast<RodProblem>(problem.clone()), x, p};
-    std::vector<ContactEvent> events = contact_events(own.problem->profile(x, p), problem.topology());
-    const bool vanished = !vanished_beside_strands(events, problem.topology()).empty();
-    if (vanished && !leave_event(*own.problem, own.x, own.p)) return false;
-    events = contact_events(own.problem->profile(own.x, own.p), problem.topology());
+    if (!leave_event(*own.problem, own.x, own.p)) return false;
+    const std::vector<ContactEvent> events =
+        contact_events(own.problem->profile(own.x, own.p), problem.topology());
     const auto here = std::find_if(events.begin(), events.end(),
                                    [&](const ContactEvent& other) { return other.name() == event; });
     if (here == events.end()) return false;

@@ -106,10 +106,6 @@ bool symmetric(const Topology& topology, const std::vector<double>& s) {
 /// Is it its own mirror image?
 bool is_symmetric(const Successor& next) { return symmetric(next.topology, next.s); }
 
-}  // namespace
-
-namespace {
-
 /// Does a strand press on a line that lies on cylinder and plate at once? No joint is that yet.
 bool presses_on_flat_line(const Topology& topology) {
   for (int j = 1; j < static_cast<int>(topology.on.size()); ++j)

@@ -114,6 +114,16 @@ Key method(std::string_view name, Dimension dimension, Range range, std::string_
           .set = set_continuation<Member>};
 }
 
+Key truth(std::string_view name, std::string_view help, decltype(Key::get) get, decltype(Key::set) set) {
+  return {.name = name,
+          .kind = ValueKind::truth,
+          .range = any,
+          .choices = {},
+          .help = help,
+          .get = get,
+          .set = set};
+}
+
 /// A key the resolved scene no longer has: it went into the scales or into another key.
 Key derived(std::string_view name, Dimension dimension, Range range, std::string_view help) {
   return {.name = name, .dimension = dimension, .range = range, .choices = {}, .help = help};
@@ -146,16 +156,12 @@ std::vector<Key> rod_keys() {
                                            "radius r of the rod; the centreline's cylinder is R + r");
   radius.get = [](const Scene& scene) -> std::optional<double> { return scene.rod_radius; };
   radius.set = [](Scene& scene, double value) { scene.rod_radius = value; };
-  Key self_contact{
-      .name = "rod.self_contact",
-      .kind = ValueKind::truth,
-      .range = any,
-      .choices = {},
-      .help =
-          "may the rod touch itself? true, the default where rod.radius > 0: its strands keep 2 rod.radius "
-          "apart; false: a thin rod, which passes through itself",
-      .get = [](const Scene& scene) -> std::optional<double> { return scene.self_contact ? 1.0 : 0.0; },
-      .set = [](Scene& scene, double value) { scene.self_contact = value != 0.0; }};
+  const Key self_contact = truth(
+      "rod.self_contact",
+      "may the rod touch itself? true, the default where rod.radius > 0: its strands keep 2 rod.radius "
+      "apart; false: a thin rod, which passes through itself",
+      [](const Scene& scene) -> std::optional<double> { return scene.self_contact ? 1.0 : 0.0; },
+      [](Scene& scene, double value) { scene.self_contact = value != 0.0; });
   return {
       parameter<&Scene::rod, &Rod::length>("rod.length", Dimension::length, length,
                                            "whole length, or \"inf\" (closed-form tails)"),
@@ -196,15 +202,12 @@ Key weight_key(std::string_view name, std::string_view help) {
 
 /// Rods that stretch, and rods that weigh. What a scene without them does not say is not written into it.
 std::vector<Key> stretch_keys() {
-  Key extensible{.name = "rod.extensible",
-                 .kind = ValueKind::truth,
-                 .range = any,
-                 .choices = {},
-                 .help = "may the rod stretch? true: by its axial stiffness; false, the default: not at all",
-                 .get = [](const Scene& scene) -> std::optional<double> {
-                   return scene.rod.extensible ? std::optional(1.0) : std::nullopt;
-                 },
-                 .set = [](Scene& scene, double value) { scene.rod.extensible = value != 0.0; }};
+  const Key extensible = truth(
+      "rod.extensible", "may the rod stretch? true: by its axial stiffness; false, the default: not at all",
+      [](const Scene& scene) -> std::optional<double> {
+        return scene.rod.extensible ? std::optional(1.0) : std::nullopt;
+      },
+      [](Scene& scene, double value) { scene.rod.extensible = value != 0.0; });
   Key stiffness{
       .name = "rod.axial_stiffness",
       .dimension = Dimension::force,
@@ -244,17 +247,14 @@ std::vector<Key> load_keys() {
                .get = [](const Scene& scene) { return scene.friction; },
                .set = [](Scene& scene, double value) { scene.friction = value; },
                .is_parameter = true};
-  Key couple{.name = "cylinder.friction_couple",
-             .kind = ValueKind::truth,
-             .range = any,
-             .choices = {},
-             .help =
-                 "while sliding, of a rod that may touch itself: has the friction, which acts at the rod's "
-                 "surface, a moment about its centre line? default: true",
-             .get = [](const Scene& scene) -> std::optional<double> {
-               return scene.motion.friction_couple ? std::nullopt : std::optional(0.0);
-             },
-             .set = [](Scene& scene, double value) { scene.motion.friction_couple = value != 0.0; }};
+  const Key couple = truth(
+      "cylinder.friction_couple",
+      "while sliding, of a rod that may touch itself: has the friction, which acts at the rod's "
+      "surface, a moment about its centre line? default: true",
+      [](const Scene& scene) -> std::optional<double> {
+        return scene.motion.friction_couple ? std::nullopt : std::optional(0.0);
+      },
+      [](Scene& scene, double value) { scene.motion.friction_couple = value != 0.0; });
   return {
       derived("cylinder.radius", Dimension::length, positive, "radius R; dimensionless: 1 - rod.radius"),
       friction,

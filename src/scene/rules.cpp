@@ -35,8 +35,7 @@ void check_ends(const Document& document, const Scene& scene) {
     if (scene.has_cylinder && kind == EndKind::pinned)
       forbid(document, key,
              "must be \"moment_free\", \"clamped\" or \"spin_held\" with [cylinder]: its pulls leave the "
-             "ends free to "
-             "move");
+             "ends free to move");
     if (!scene.has_cylinder && kind == EndKind::spin_held)
       forbid(document, key, "must be \"moment_free\", \"pinned\" or \"clamped\" without [cylinder]");
   }
