@@ -1,10 +1,11 @@
 #include "continuation/sparse_problem.hpp"
 
 #include <Eigen/SparseCholesky>
-#include <Eigen/SparseLU>
 #include <stdexcept>
 #include <utility>
 #include <vector>
+
+#include "continuation/eigen_sparse_instances.hpp"
 
 namespace continuation {
 

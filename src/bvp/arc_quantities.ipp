@@ -5,20 +5,20 @@
 
 namespace windlass::bvp {
 
-template <class Density>
-Eigen::VectorXd CollocationArc<Density>::metric(const ArcPoint& at) const {
+template <class Configuration, int P>
+Eigen::VectorXd CollocationArc<Configuration, P>::metric(const ArcPoint& at) const {
   const Eigen::VectorXd lumped = table_.value.transpose() * table_.weight;
   Eigen::VectorXd mass = Eigen::VectorXd::Zero(interior_tangent() + E);
   for (int e = 0; e < elements(); ++e)
     for (int i = 0; i <= stages(); ++i)
       for (int j = 0; j < D; ++j)
         mass(place(e, column(i) + j)) +=
-            Density::metric_scale * lumped(i) * at.length * (mesh_[e + 1] - mesh_[e]);
+            Configuration::metric_scale * lumped(i) * at.length * (mesh_[e + 1] - mesh_[e]);
   return mass;
 }
 
-template <class Density>
-ArcSamples CollocationArc<Density>::sample(const ArcPoint& at) const {
+template <class Configuration, int P>
+ArcSamples CollocationArc<Configuration, P>::sample(const ArcPoint& at) const {
   const int m = stages(), count = elements() * m + 1;
   ArcSamples out{Eigen::VectorXd(count),
                  Eigen::MatrixXd(A, count),
@@ -28,47 +28,47 @@ ArcSamples CollocationArc<Density>::sample(const ArcPoint& at) const {
   out.slope.resize(D, count);
   Force base = Force::Zero();
   Nodes q, g;
-  Ambient value, slope;
-  Eigen::Matrix<double, 2 * A, 1> gz;
-  Force d;
+  Sections<A, P> sections;
+  Firsts first;
   for (int e = 0; e < elements(); ++e) {
     const double h = mesh_[e + 1] - mesh_[e];
     gather(at, e, q);
     Force g_n = Force::Zero();
     double g_length = 0.0;
     element_gradient(q, at, e, g, g_n, g_length);
+    gauss_sections(q, at, e, sections);
+    density_->first(sections, first.data());
     Eigen::MatrixXd directions(P, m), loads(A, m);
     for (int j = 0; j < m; ++j) {
-      evaluate(table_, q, j, 1.0 / (h * at.length), value, slope);
-      if constexpr (A == D || stretches) {
-        first(value, slope, force_there(at, e, j), at, gz, d);
-        loads.col(j) = gz.template head<A>();
-      } else {
-        d = density_.direction(value);
-      }
-      directions.col(j) = d;
+      loads.col(j) = first[j].gz.template head<A>();
+      directions.col(j) = first[j].d;
     }
     const Eigen::MatrixXd integral = h * at.length * table_.integral.transpose();
     const Eigen::MatrixXd moved = directions * integral;
     // The momentum follows from what the element gains of it, more exactly than from the polynomial's slope.
     Eigen::MatrixXd gained;
     if constexpr (A == D) gained = loads * integral;
+    sections.q = q;
+    sections.slope.resize(A, m + 1);
+    sections.slope.noalias() = q.lazyProduct(table_.end_slope.transpose());
+    sections.slope /= h * at.length;
+    sections.falls = false;  // ∂L/∂q' of a free rod knows no n
+    sections.count = m + 1;
+    if constexpr (A != D) density_->first(sections, first.data());
     for (int i = 0; i <= m; ++i) {
       const int k = e * m + i;
       out.sigma(k) = mesh_[e] + h * table_.lobatto(i);
       out.q.col(k) = q.col(i);
       out.displacement.col(k) = base + moved.col(i);
-      slope = q * table_.end_slope.row(i).transpose() / (h * at.length);
-      if constexpr (A == D) {
+      const auto basis = Configuration::basis(q.col(i));
+      if constexpr (A == D)
         out.momentum.col(k) = gained.col(i) - g.col(0);
-      } else {
-        first(q.col(i), slope, Eigen::Map<const Force>(at.n), at, gz, d);  // ∂L/∂q' of a free rod knows no n
-        out.momentum.col(k) = density_.basis(q.col(i)).transpose() * gz.template tail<A>();
-      }
-      out.slope.col(k) = density_.basis(q.col(i)).transpose() * slope;
+      else
+        out.momentum.col(k) = basis.transpose() * first[i].gz.template tail<A>();
+      out.slope.col(k) = basis.transpose() * sections.slope.col(i);
     }
-    out.momentum.col(e * m) = -density_.basis(q.col(0)).transpose() * g.col(0);
-    out.momentum.col(e * m + m) = density_.basis(q.col(m)).transpose() * g.col(m);
+    out.momentum.col(e * m) = -Configuration::basis(q.col(0)).transpose() * g.col(0);
+    out.momentum.col(e * m + m) = Configuration::basis(q.col(m)).transpose() * g.col(m);
     base -= g_n;  // ∂S/∂n of the element = −∫ d ds
     out.displacement.col(e * m + m) = base;
     out.nodes.push_back(e * m);
@@ -77,29 +77,24 @@ ArcSamples CollocationArc<Density>::sample(const ArcPoint& at) const {
   return out;
 }
 
-template <class Density>
-double CollocationArc<Density>::energy(const ArcPoint& at) const {
+template <class Configuration, int P>
+double CollocationArc<Configuration, P>::energy(const ArcPoint& at) const {
   double sum = 0.0;
   Nodes q;
-  Ambient value, slope;
+  Sections<A, P> sections;
+  std::array<double, max_points> density;
   for (int e = 0; e < elements(); ++e) {
-    const double h = mesh_[e + 1] - mesh_[e];
     gather(at, e, q);
-    for (int g = 0; g < stages(); ++g) {
-      evaluate(table_, q, g, 1.0 / (h * at.length), value, slope);
-      double density = 0.0;
-      if constexpr (stretches)
-        density = density_.elastic(value, slope, force_there(at, e, g), at.compliance);
-      else
-        density = density_.elastic(value, slope);
-      sum += h * at.length * table_.weight(g) * density;
-    }
+    gauss_sections(q, at, e, sections);
+    density_->elastic(sections, density.data());
+    for (int g = 0; g < stages(); ++g)
+      sum += (mesh_[e + 1] - mesh_[e]) * at.length * table_.weight(g) * density[g];
   }
   return sum;
 }
 
-template <class Density>
-std::vector<double> CollocationArc<Density>::resolution(const ArcPoint& at) const {
+template <class Configuration, int P>
+std::vector<double> CollocationArc<Configuration, P>::resolution(const ArcPoint& at) const {
   std::vector<double> sizes;
   Nodes q;
   for (int e = 0; e < elements(); ++e) {
@@ -109,13 +104,14 @@ std::vector<double> CollocationArc<Density>::resolution(const ArcPoint& at) cons
   return sizes;
 }
 
-template <class Density>
-std::unique_ptr<Arc> CollocationArc<Density>::remeshed(const std::vector<double>& mesh, int stages) const {
-  return make_collocation_arc<Density>(density_, mesh, stages);
+template <class Configuration, int P>
+std::unique_ptr<Arc> CollocationArc<Configuration, P>::remeshed(const std::vector<double>& mesh,
+                                                                int stages) const {
+  return std::make_unique<CollocationArc>(density_, mesh, stages);
 }
 
-template <class Density>
-Eigen::VectorXd CollocationArc<Density>::transfer(const ArcPoint& at, const Arc& target) const {
+template <class Configuration, int P>
+Eigen::VectorXd CollocationArc<Configuration, P>::transfer(const ArcPoint& at, const Arc& target) const {
   const std::vector<double> mesh = target.mesh();
   const int fine = target.stages();
   const Eigen::VectorXd points = CollocationTable::get(fine).lobatto;
@@ -138,7 +134,7 @@ Eigen::VectorXd CollocationArc<Density>::transfer(const ArcPoint& at, const Arc&
     const double x = (sigma - mesh_[e]) / (mesh_[e + 1] - mesh_[e]);
     const Ambient value =
         same ? Ambient(q * basis.col(k % fine)) : Ambient(q * lagrange_basis(table_.lobatto, x));
-    out.template segment<A>((k - 1) * A) = density_.normalised(value);
+    out.template segment<A>((k - 1) * A) = Configuration::normalised(value);
   }
   return out;
 }

@@ -1,4 +1,4 @@
-// Definitions of CollocationArc; included by the files that instantiate it, one a density.
+// Definitions of CollocationArc; included by the files that instantiate it, one a kind of configuration.
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -7,9 +7,13 @@
 
 namespace windlass::bvp {
 
-template <class Density>
-CollocationArc<Density>::CollocationArc(Density density, std::vector<double> mesh, int stages)
-    : density_(std::move(density)), mesh_(std::move(mesh)), table_(CollocationTable::get(stages)) {
+template <class Configuration, int P>
+CollocationArc<Configuration, P>::CollocationArc(std::shared_ptr<const Density> density,
+                                                 std::vector<double> mesh, int stages)
+    : density_(std::move(density)),
+      stretches_(density_->stretches()),
+      mesh_(std::move(mesh)),
+      table_(CollocationTable::get(stages)) {
   if (mesh_.size() < 2) throw std::invalid_argument("an arc's mesh needs at least one element");
   element_factors_.resize(mesh_.size() - 1);
   node_factors_.resize(mesh_.size() - 2);
@@ -20,15 +24,15 @@ CollocationArc<Density>::CollocationArc(Density density, std::vector<double> mes
   node_.setZero(D + E, D + E);
 }
 
-template <class Density>
-const double* CollocationArc<Density>::node(const ArcPoint& at, int k) const {
+template <class Configuration, int P>
+const double* CollocationArc<Configuration, P>::node(const ArcPoint& at, int k) const {
   if (k == 0) return at.q_a;
   if (k == elements() * stages()) return at.q_b;
   return at.interior + (k - 1) * A;
 }
 
-template <class Density>
-void CollocationArc<Density>::gather(const ArcPoint& at, int element, Nodes& q) const {
+template <class Configuration, int P>
+void CollocationArc<Configuration, P>::gather(const ArcPoint& at, int element, Nodes& q) const {
   q.resize(A, stages() + 1);
   for (int i = 0; i <= stages(); ++i) q.col(i) = Eigen::Map<const Ambient>(node(at, element * stages() + i));
 }
@@ -68,69 +72,71 @@ struct PaddedTable {
   }
 };
 
-/// Value and derivative of an element's polynomial at Gauss point g.
-template <class Nodes, class Ambient>
-void evaluate(const CollocationTable& table, const Nodes& q, int g, double inverse, Ambient& value,
-              Ambient& slope) {
-  value.setZero();
-  slope.setZero();
-  for (int i = 0; i <= table.stages; ++i) {
-    value += table.value(g, i) * q.col(i);
-    slope += table.slope(g, i) * q.col(i);
-  }
-  slope *= inverse;
-}
-
 }  // namespace
 
-template <class Density>
-void CollocationArc<Density>::element_gradient(const Nodes& q, const ArcPoint& at, int element, Nodes& out,
-                                               Force& g_n, double& g_length) const {
-  const double h = mesh_[element + 1] - mesh_[element], inverse = 1.0 / (h * at.length);
+template <class Configuration, int P>
+void CollocationArc<Configuration, P>::gauss_sections(const Nodes& q, const ArcPoint& at, int element,
+                                                      Sections<A, P>& out) const {
+  const double inverse = 1.0 / ((mesh_[element + 1] - mesh_[element]) * at.length);
   const int m = stages();
+  out.count = m;
+  out.q.resize(A, m), out.slope.resize(A, m);
   if constexpr (A == 1) {
     const PaddedTable& table = PaddedTable::get(m);
     const PaddedTable::Row nodes = PaddedTable::pad(q);
-    PaddedTable::Row sum = PaddedTable::Row::Zero();
-    Ambient value, slope;
-    Eigen::Vector2d gz;
-    Force d;
-    for (int g = 0; g < m; ++g) {
-      value(0) = (table.value[g] * nodes).sum(), slope(0) = inverse * (table.slope[g] * nodes).sum();
-      const double lagrangian = first(value, slope, force_there(at, element, g), at, gz, d);
-      const double w = h * table_.weight(g), wl = w * at.length;
-      g_n -= wl * d;
-      g_length += w * (lagrangian - gz(1) * slope(0));
-      if constexpr (stretches) g_length += w * fallen(at, element, g, d);
-      sum += (wl * gz(0)) * table.value[g] + (table_.weight(g) * gz(1)) * table.slope[g];
-    }
-    out.resize(A, m + 1);
-    for (int i = 0; i <= m; ++i) out(i) = sum(i);
-    return;
+    for (int g = 0; g < m; ++g)
+      out.q(g) = (table.value[g] * nodes).sum(), out.slope(g) = inverse * (table.slope[g] * nodes).sum();
+  } else {  // products of small matrices, whose inner loops run over contiguous numbers
+    out.q.noalias() = q.lazyProduct(table_.value.transpose());
+    out.slope.noalias() = q.lazyProduct(table_.slope.transpose());
+    out.slope *= inverse;
   }
-  // All Gauss points at once: products of small matrices, whose inner loops run over contiguous numbers.
-  Nodes values(A, m), slopes(A, m);
-  values.noalias() = q.lazyProduct(table_.value.transpose());
-  slopes.noalias() = q.lazyProduct(table_.slope.transpose());
-  slopes *= inverse;
-  Eigen::Matrix<double, 2 * A, 1> gz;
-  Force d;
-  for (int g = 0; g < m; ++g) {
-    const Ambient value = values.col(g), slope = slopes.col(g);
-    const double lagrangian = first(value, slope, force_there(at, element, g), at, gz, d);
-    const double w = h * table_.weight(g), wl = w * at.length;
-    g_n -= wl * d;
-    g_length += w * (lagrangian - gz.template tail<A>().dot(slope));
-    if constexpr (stretches) g_length += w * fallen(at, element, g, d);
-    values.col(g) = wl * gz.template head<A>();
-    slopes.col(g) = table_.weight(g) * gz.template tail<A>();
-  }
-  out.noalias() = values.lazyProduct(table_.value);
-  out.noalias() += slopes.lazyProduct(table_.slope);
+  out.compliance = at.compliance;
+  out.falls = at.weight != nullptr;
+  out.n[0] = Eigen::Map<const Force>(at.n);
+  if (out.falls)
+    for (int g = m - 1; g >= 0; --g)
+      out.n[g] = out.n[0] - along(at, element, g) * Eigen::Map<const Force>(at.weight);
 }
 
-template <class Density>
-void CollocationArc<Density>::gradient(const ArcPoint& at, double* interior, EndsVector& ends) const {
+template <class Configuration, int P>
+void CollocationArc<Configuration, P>::element_gradient(const Nodes& q, const ArcPoint& at, int element,
+                                                        Nodes& out, Force& g_n, double& g_length) const {
+  const double h = mesh_[element + 1] - mesh_[element];
+  const int m = stages();
+  Sections<A, P> sections;
+  Firsts first;
+  gauss_sections(q, at, element, sections);
+  density_->first(sections, first.data());
+  for (int g = 0; g < m; ++g) {
+    const double w = h * table_.weight(g);
+    g_n -= w * at.length * first[g].d;
+    g_length += w * (first[g].value - first[g].gz.template tail<A>().dot(sections.slope.col(g)));
+    if (at.weight)  // ℓ ∂n/∂ℓ·∂L/∂n
+      g_length += w * along(at, element, g) * Eigen::Map<const Force>(at.weight).dot(first[g].d);
+  }
+  if constexpr (A == 1) {
+    const PaddedTable& table = PaddedTable::get(m);
+    PaddedTable::Row sum = PaddedTable::Row::Zero();
+    for (int g = 0; g < m; ++g)
+      sum += (h * table_.weight(g) * at.length * first[g].gz(0)) * table.value[g] +
+             (table_.weight(g) * first[g].gz(1)) * table.slope[g];
+    out.resize(A, m + 1);
+    for (int i = 0; i <= m; ++i) out(i) = sum(i);
+  } else {
+    Nodes &by_value = sections.q, &by_slope = sections.slope;  // used up
+    for (int g = 0; g < m; ++g) {
+      by_value.col(g) = h * table_.weight(g) * at.length * first[g].gz.template head<A>();
+      by_slope.col(g) = table_.weight(g) * first[g].gz.template tail<A>();
+    }
+    out.noalias() = by_value.lazyProduct(table_.value);
+    out.noalias() += by_slope.lazyProduct(table_.slope);
+  }
+}
+
+template <class Configuration, int P>
+void CollocationArc<Configuration, P>::gradient(const ArcPoint& at, double* interior,
+                                                EndsVector& ends) const {
   ends.setZero(E);
   std::fill_n(interior, interior_tangent(), 0.0);
   Force g_n = Force::Zero();
@@ -142,7 +148,7 @@ void CollocationArc<Density>::gradient(const ArcPoint& at, double* interior, End
     element_gradient(q, at, e, g, g_n, g_length);
     for (int i = 0; i <= stages(); ++i) {
       const int k = e * stages() + i;
-      const Eigen::Matrix<double, D, 1> projected = density_.basis(q.col(i)).transpose() * g.col(i);
+      const Eigen::Matrix<double, D, 1> projected = Configuration::basis(q.col(i)).transpose() * g.col(i);
       if (k == 0)
         ends.template head<D>() += projected;
       else if (k == last)

@@ -5,23 +5,29 @@
 
 namespace windlass::bvp {
 
-template <class Density>
-void CollocationArc<Density>::hold_node(Eigen::MatrixXd& block, double parts) {
+template <class Configuration, int P>
+void CollocationArc<Configuration, P>::hold_node(Eigen::MatrixXd& block, double parts) {
   constexpr double cancelled = 1e-4;  // digits that a pivot may lose: 4 of 16
   using Square = Eigen::Matrix<double, D, D>;
   const Square pivot = Square(block.template topLeftCorner<D, D>()).template selfadjointView<Eigen::Lower>();
-  const Eigen::SelfAdjointEigenSolver<Square> eigen(pivot);
+  Square vectors = Square::Identity();
+  Eigen::Matrix<double, D, 1> values = pivot.diagonal();
+  if constexpr (D > 1) {  // closed forms: a direction that is not quite the eigenvector's serves as well
+    Eigen::SelfAdjointEigenSolver<Square> eigen;
+    eigen.computeDirect(pivot);
+    vectors = eigen.eigenvectors(), values = eigen.eigenvalues();
+  }
   for (int k = 0; k < D; ++k) {
-    if (std::abs(eigen.eigenvalues()(k)) > cancelled * parts) continue;
+    if (std::abs(values(k)) > cancelled * parts) continue;
     Held& held = held_[held_count_++];
     held.first = interior_tangent() - stages() * D;
-    held.direction = std::sqrt(parts) * eigen.eigenvectors().col(k);
+    held.direction = std::sqrt(parts) * vectors.col(k);
     block.template topLeftCorner<D, D>() += held.direction * held.direction.transpose();
   }
 }
 
-template <class Density>
-void CollocationArc<Density>::factor(const ArcPoint& at, EndsMatrix& condensed) {
+template <class Configuration, int P>
+void CollocationArc<Configuration, P>::factor(const ArcPoint& at, EndsMatrix& condensed) {
   constexpr int F = P + 1;  // n and ℓ
   negative_ = 0;
   held_count_ = 0;
@@ -61,8 +67,8 @@ void CollocationArc<Density>::factor(const ArcPoint& at, EndsMatrix& condensed) 
   condensed = carry.template selfadjointView<Eigen::Lower>();
 }
 
-template <class Density>
-void CollocationArc<Density>::reduce(double* rhs, EndsVector& ends) const {
+template <class Configuration, int P>
+void CollocationArc<Configuration, P>::reduce(double* rhs, EndsVector& ends) const {
   using NodeMap = Eigen::Map<Eigen::Matrix<double, D, 1>>;
   const int m = stages();
   Eigen::Matrix<double, E, 1> g;
@@ -89,8 +95,8 @@ void CollocationArc<Density>::reduce(double* rhs, EndsVector& ends) const {
   }
 }
 
-template <class Density>
-void CollocationArc<Density>::expand(double* x, const EndsVector& ends) const {
+template <class Configuration, int P>
+void CollocationArc<Configuration, P>::expand(double* x, const EndsVector& ends) const {
   using NodeMap = Eigen::Map<Eigen::Matrix<double, D, 1>>;
   const int m = stages();
   Eigen::Matrix<double, E, 1> y = ends;
@@ -106,8 +112,8 @@ void CollocationArc<Density>::expand(double* x, const EndsVector& ends) const {
   }
 }
 
-template <class Density>
-int CollocationArc<Density>::place(int element, int column) const {
+template <class Configuration, int P>
+int CollocationArc<Configuration, P>::place(int element, int column) const {
   const int interior = interior_tangent(), in = inner(), m = stages();
   if (column >= in + 2 * D) return interior + 2 * D + column - (in + 2 * D);
   const bool left = column >= in && column < in + D, right = column >= in + D;
@@ -118,9 +124,9 @@ int CollocationArc<Density>::place(int element, int column) const {
   return (point - 1) * D + part;
 }
 
-template <class Density>
-void CollocationArc<Density>::hessian(const ArcPoint& at,
-                                      std::vector<Eigen::Triplet<double>>& entries) const {
+template <class Configuration, int P>
+void CollocationArc<Configuration, P>::hessian(const ArcPoint& at,
+                                               std::vector<Eigen::Triplet<double>>& entries) const {
   Nodes q;
   for (int e = 0; e < elements(); ++e) {
     gather(at, e, q);

@@ -1,8 +1,9 @@
 #include "windlass/chain/block_factors.hpp"
 
 #include <Eigen/SparseCore>
-#include <Eigen/SparseLU>
 #include <algorithm>
+
+#include "continuation/eigen_sparse_instances.hpp"
 
 namespace windlass::chain {
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "windlass/bvp/collocation_arc.hpp"
 #include "windlass/bvp/collocation_table.hpp"
 #include "windlass/chain/guess.hpp"
 #include "windlass/chain/variation.hpp"

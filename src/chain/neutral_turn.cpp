@@ -39,7 +39,7 @@ VectorXd Chain::turn_of_joints(Purpose purpose, const Numbering& numbering, cons
     const Eigen::Index count = at.dx.cols();
     if (count == 0) continue;
     MatrixXd by(6, count);
-    Eigen::Matrix<double, 6, 1> change;
+    VectorXd change(6);
     by << at.dq, at.dx;
     change << rod::turn_increment(at.q, turn.axis, turn.spin), turn.axis.cross(Vector3d(at.x));
     motion.segment(numbering.coordinate[j], count) = by.colPivHouseholderQr().solve(change);

@@ -72,11 +72,11 @@ Contact strand_contact(const Chain& chain, const Topology& topology, const rod::
   }
   const Vector3d first = curvature(material, pieces[with.first], 0),
                  second = with.image().cwiseProduct(curvature(material, pieces[with.second], 0));
-  Eigen::Matrix2d bend;
-  bend(0, 0) = 1.0 / at.distance + at.direction.dot(first);
-  bend(1, 1) = 1.0 / at.distance - at.direction.dot(second);
-  bend(0, 1) = bend(1, 0) = -at.first.t.dot(at.second.t) / at.distance;
-  c.gap_curvature = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(bend).eigenvalues()(0);
+  // The lower eigenvalue of the distance's second derivatives with the two places.
+  const double by_first = 1.0 / at.distance + at.direction.dot(first),
+               by_second = 1.0 / at.distance - at.direction.dot(second),
+               mixed = -at.first.t.dot(at.second.t) / at.distance;
+  c.gap_curvature = 0.5 * (by_first + by_second) - std::hypot(0.5 * (by_first - by_second), mixed);
   return c;
 }
 

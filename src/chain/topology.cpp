@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "windlass/bvp/collocation_arc.hpp"
 #include "windlass/contact/planar_joints.hpp"
 #include "windlass/contact/plate_joints.hpp"
 #include "windlass/contact/spatial_joints.hpp"

@@ -25,9 +25,7 @@ chain::Piece without_torsion(const std::vector<CurvePlace>& places, const rod::Q
     if (k == 0) {
       piece.q.col(k) = first;
     } else {
-      const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(before, tangent);
-      piece.q.col(k) =
-          rod::product(rod::Quaternion(turn.w(), turn.x(), turn.y(), turn.z()), piece.q.col(k - 1));
+      piece.q.col(k) = rod::product(rod::turn_between(before, tangent), piece.q.col(k - 1));
       const double angle = obstacle::Cylinder::angle(piece.r.col(k));
       piece.angle(k) = piece.angle(k - 1) + std::remainder(angle - piece.angle(k - 1), 2.0 * M_PI);
     }

@@ -30,14 +30,13 @@ chain::Profile shape_of(const Pull& pull, const std::vector<PlaceLoad>& loads) {
                       controls * discrete_rod::cubic_weights(t, 1) / h,
                       controls * discrete_rod::cubic_weights(t, 2) / (h * h)});
   }
-  const Eigen::Quaterniond q =
-      Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), places.front().slope.normalized());
+  const rod::Quaternion first = rod::turn_between(Vector3d::UnitZ(), places.front().slope.normalized());
   std::vector<discrete_rod::PointLoad> points;
   for (const PlaceLoad& load : loads)
     if (load.cylinder > 0.0 || load.plate > 0.0) points.push_back({load.s, load.force});
   const double difference = rod.setting.blocked ? u(u.size() - 1) : 0.0;
   chain::Piece piece = equilibrium::without_torsion(
-      places, {q.w(), q.x(), q.y(), q.z()}, (rod.setting.tension + difference) * rod.right_pull(), points);
+      places, first, (rod.setting.tension + difference) * rod.right_pull(), points);
   // Unrolled from the left end; the middle lies about the south pole.
   piece.angle.array() -= 2.0 * M_PI * std::round(piece.angle(piece.angle.size() / 2) / (2.0 * M_PI));
   chain::Profile out;

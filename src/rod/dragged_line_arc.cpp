@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "windlass/bvp/collocation_arc.hpp"
+
 namespace windlass::rod {
 
 using bvp::ArcPoint;
@@ -57,7 +59,8 @@ MatrixXd gauss_stages(const bvp::CollocationTable& table) {
 
 DraggedLineArc::DraggedLineArc(const SurfaceDensity& rod, const std::vector<double>& mesh, int stages)
     : rod_(rod),
-      still_(rod, mesh, stages),
+      still_(bvp::make_collocation_arc(rod, mesh, stages)),
+      mesh_(mesh),
       table_(bvp::CollocationTable::get(stages)),
       stage_(gauss_stages(table_)) {
   const int all = interior_tangent() + ends();
@@ -80,8 +83,7 @@ int DraggedLineArc::place(int k, int j) const {
 
 void DraggedLineArc::evaluate(const ArcPoint& at, int element, const Vector2d& n, Element& out) const {
   const int m = stages();
-  const std::vector<double>& mesh = still_.nodes();
-  const double h = (mesh[element + 1] - mesh[element]) * at.length;
+  const double h = (mesh_[element + 1] - mesh_[element]) * at.length;
   out.nodes.resize(2, m + 1), out.n.resize(2, m), out.rate.resize(2, m);
   for (int i = 0; i <= m; ++i) out.nodes.col(i) = Eigen::Map<const Vector2d>(node(at, element * m + i));
   out.q = out.nodes.lazyProduct(table_.value.transpose());
@@ -114,8 +116,7 @@ void DraggedLineArc::evaluate(const ArcPoint& at, int element, const Vector2d& n
 void DraggedLineArc::element_gradient(const ArcPoint& at, int element, const Element& state,
                                       Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, max_points>& g,
                                       Vector2d& displacement) const {
-  const std::vector<double>& mesh = still_.nodes();
-  const double h = (mesh[element + 1] - mesh[element]) * at.length;
+  const double h = (mesh_[element + 1] - mesh_[element]) * at.length;
   g.setZero(2, stages() + 1);
   Eigen::Vector4d gz;
   Vector2d d;
@@ -166,7 +167,7 @@ void DraggedLineArc::linearise(const ArcPoint& at) const {
 
 void DraggedLineArc::linearise(const ArcPoint& at, int element, const Element& state) const {
   const int m = stages(), inner = interior_tangent(), length = inner + length_end(), travel = length + 1;
-  const double part = still_.nodes()[element + 1] - still_.nodes()[element], h = part * at.length;
+  const double part = mesh_[element + 1] - mesh_[element], h = part * at.length;
   // Change of (q, q') at a Gauss point with the element's nodes, then with ℓ.
   Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, max_local> z(4, 2 * m + 3);
   std::array<int, max_local> column;
@@ -279,14 +280,14 @@ void DraggedLineArc::hessian(const ArcPoint& at, std::vector<Eigen::Triplet<doub
 
 Eigen::VectorXd DraggedLineArc::metric(const ArcPoint& at) const {
   Eigen::VectorXd mass = Eigen::VectorXd::Zero(interior_tangent() + ends());
-  const Eigen::VectorXd still = still_.metric(at);
+  const Eigen::VectorXd still = still_->metric(at);
   mass.head(still.size()) = still;
   return mass;
 }
 
 bvp::ArcSamples DraggedLineArc::sample(const ArcPoint& at) const {
   const int m = stages();
-  bvp::ArcSamples out = still_.sample(at);
+  bvp::ArcSamples out = still_->sample(at);
   out.force.resize(2, out.sigma.size());
   Element state;
   state.n_end = Eigen::Map<const Vector2d>(at.n);
@@ -301,7 +302,7 @@ bvp::ArcSamples DraggedLineArc::sample(const ArcPoint& at) const {
       rod_.first(state.q.col(k), state.slope.col(k), state.n.col(k), gz, d);
       loads.col(k) = gz.head<2>();
     }
-    const double h = (still_.nodes()[e + 1] - still_.nodes()[e]) * at.length;
+    const double h = (mesh_[e + 1] - mesh_[e]) * at.length;
     const MatrixXd integral = h * table_.integral.transpose();
     out.force.middleCols(e * m, m + 1) = (state.rate * integral).colwise() + before;
     out.momentum.middleCols(e * m, m + 1) = (loads * integral).colwise() - Vector2d(g.col(0));

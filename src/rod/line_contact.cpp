@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "windlass/bvp/collocation_arc.hpp"
 #include "windlass/rod/extensible_density.hpp"
 #include "windlass/rod/plane_density.hpp"
 #include "windlass/rod/surface_density.hpp"

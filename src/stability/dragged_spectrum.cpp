@@ -1,8 +1,8 @@
 #include "dragged_spectrum.hpp"
 
-#include <Eigen/SparseLU>
 #include <algorithm>
 
+#include "continuation/eigen_sparse_instances.hpp"
 #include "windlass/petsc/handles.hpp"
 
 namespace windlass::stability {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/eigen_sparse_instances.hpp"
+
 namespace windlass::verify {
 
 using Eigen::Index;

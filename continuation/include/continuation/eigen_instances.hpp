@@ -15,6 +15,8 @@ INSTANCE_OF_EIGEN void PartialPivLU<MatrixXd>::compute();
 INSTANCE_OF_EIGEN void FullPivLU<MatrixXd>::computeInPlace();
 INSTANCE_OF_EIGEN void HouseholderQR<MatrixXd>::computeInPlace();
 INSTANCE_OF_EIGEN void ColPivHouseholderQR<MatrixXd>::computeInPlace();
+INSTANCE_OF_EIGEN void ColPivHouseholderQR<MatrixXd>::_solve_impl<VectorXd, VectorXd>(const VectorXd&,
+                                                                                      VectorXd&) const;
 INSTANCE_OF_EIGEN SelfAdjointEigenSolver<MatrixXd>& SelfAdjointEigenSolver<MatrixXd>::compute<MatrixXd>(
     const EigenBase<MatrixXd>&, int);
 INSTANCE_OF_EIGEN EigenSolver<MatrixXd>& EigenSolver<MatrixXd>::compute<MatrixXd>(const EigenBase<MatrixXd>&,

@@ -1,35 +1,35 @@
 #pragma once
 
+#include <memory>
+
 #include "windlass/bvp/arc.hpp"
 #include "windlass/bvp/collocation_table.hpp"
+#include "windlass/bvp/lagrangian.hpp"
 #include "windlass/bvp/partial_elimination.hpp"
 
 namespace windlass::bvp {
 
-/// An arc discretised by Gauss collocation of the Lagrangian density `Density`.
-///
-/// Density supplies the sizes `ambient`, `tangent`, `forces`, and
+/// An arc discretised by Gauss collocation of a Lagrangian density
 ///
 ///     L(q, q', n) = W(q, q') − n·d(q)
 ///
-/// with first and second derivatives; `basis(q)` (ambient × tangent) spans the increments of a configuration, and
-/// `radial(q, g)` is the second derivative of the retraction contracted with an ambient gradient g (unit quaternions
-/// have one, plain coordinates have none). A density that says `stretches` is evaluated with the compliance 1/EA, too; its
-/// d = −∂L/∂n then depends on q' and n as well, and n may fall along the arc by a known force w a length, n(s) = n − w s
-/// (PHYSICS, "Rods that stretch").
+/// given with first and second derivatives (LagrangianOf<Density>). `Configuration` says what a q is: `basis(q)`
+/// (ambient × tangent) spans its increments, and `radial(q, g)` is the second derivative of the retraction contracted
+/// with an ambient gradient g (unit quaternions have one, plain coordinates have none). A density that says `stretches`
+/// is evaluated with the compliance 1/EA, too; its d = −∂L/∂n then depends on q' and n as well, and n may fall along the
+/// arc by a known force w a length, n(s) = n − w s (PHYSICS, "Rods that stretch").
 ///
-/// With N elements of M stages: (N·M − 1)·tangent interior unknowns, condensed to 2·tangent + forces + 1 at the ends, element by element
-/// and then node by node. Nothing is allocated after construction.
-template <class Density>
+/// With N elements of M stages: (N·M − 1)·tangent interior unknowns, condensed to 2·tangent + forces + 1 at the ends,
+/// element by element and then node by node. Nothing is allocated after construction.
+template <class Configuration, int P>
 class CollocationArc final : public Arc {
  public:
-  static constexpr int A = Density::ambient;
-  static constexpr int D = Density::tangent;
-  static constexpr int P = Density::forces;
+  static constexpr int A = Configuration::ambient;
+  static constexpr int D = Configuration::tangent;
   static constexpr int E = 2 * D + P + 1;  ///< ends of an element: left node, right node, n, ℓ
-  static constexpr bool stretches = requires { Density::stretches; };
+  using Density = Lagrangian<A, P>;
 
-  CollocationArc(Density density, std::vector<double> mesh, int stages);
+  CollocationArc(std::shared_ptr<const Density> density, std::vector<double> mesh, int stages);
 
   int ambient() const override { return A; }
   int tangent() const override { return D; }
@@ -38,7 +38,6 @@ class CollocationArc final : public Arc {
   int elements() const override { return static_cast<int>(mesh_.size()) - 1; }
   int stages() const override { return table_.stages; }
   std::vector<double> mesh() const override { return mesh_; }
-  const std::vector<double>& nodes() const { return mesh_; }
 
   void gradient(const ArcPoint& at, double* interior, EndsVector& ends) const override;
   void factor(const ArcPoint& at, EndsMatrix& condensed) override;
@@ -55,51 +54,31 @@ class CollocationArc final : public Arc {
   Eigen::VectorXd transfer(const ArcPoint& at, const Arc& target) const override;
 
  private:
-  static constexpr int max_points = max_stages + 2;
-  using Nodes = Eigen::Matrix<double, A, Eigen::Dynamic, A == 1 ? Eigen::RowMajor : Eigen::ColMajor, A,
-                              max_points>;  ///< one element's configurations
+  static constexpr int max_points = max_sections;
+  using Nodes = typename Sections<A, P>::Columns;  ///< one element's configurations
   using Ambient = Eigen::Matrix<double, A, 1>;
   using Force = Eigen::Matrix<double, P, 1>;
+  using Firsts = std::array<typename Density::First, max_points>;
+  using Seconds = std::array<typename Density::Second, max_points>;
 
-  /// L with its first derivatives; n is that of the place.
-  double first(const Ambient& q, const Ambient& slope, const Force& n, const ArcPoint& at,
-               Eigen::Matrix<double, 2 * A, 1>& gz, Force& d) const {
-    if constexpr (stretches)
-      return density_.first(q, slope, n, at.compliance, gz, d);
-    else
-      return density_.first(q, slope, n, gz, d);
-  }
   /// How far along the arc Gauss point g of an element is.
   double along(const ArcPoint& at, int element, int g) const {
     return at.length * (mesh_[element] + (mesh_[element + 1] - mesh_[element]) * table_.gauss(g));
   }
-  /// n at a Gauss point.
-  Force force_there(const ArcPoint& at, int element, int g) const {
-    Force n = Eigen::Map<const Force>(at.n);
-    if constexpr (stretches)
-      if (at.weight) n -= along(at, element, g) * Eigen::Map<const Force>(at.weight);
-    return n;
-  }
-  /// ℓ ∂n/∂ℓ·∂L/∂n at a Gauss point, in ∂S/∂ℓ.
-  double fallen(const ArcPoint& at, int element, int g, const Force& d) const {
-    return at.weight ? along(at, element, g) * Eigen::Map<const Force>(at.weight).dot(d) : 0.0;
-  }
   /// Pointer to the k-th configuration of the arc (0 the start, interior_nodes() + 1 the end).
   const double* node(const ArcPoint& at, int k) const;
   void gather(const ArcPoint& at, int element, Nodes& q) const;
+  /// The element's Gauss points.
+  void gauss_sections(const Nodes& q, const ArcPoint& at, int element, Sections<A, P>& out) const;
   /// Gradient of one element's action, one ambient column a Lagrange point; force and length parts are added to.
   void element_gradient(const Nodes& q, const ArcPoint& at, int element, Nodes& g, Force& g_n,
                         double& g_length) const;
   /// Hessian of one element's action, ordered interior, left, right, n, ℓ; lower triangle valid.
   void element_hessian(const Nodes& q, const ArcPoint& at, int element, Eigen::MatrixXd& k) const;
-  void vector_hessian(const Nodes& q, const ArcPoint& at, int element, Eigen::MatrixXd& k) const
-      requires(A > 1 && !stretches);
-  /// The same for a density that stretches.
-  void stretched_hessian(const Nodes& q, const ArcPoint& at, int element, Eigen::MatrixXd& k) const
-      requires(stretches);
+  void vector_hessian(const Nodes& q, const ArcPoint& at, int element, Eigen::MatrixXd& k) const;
   /// The same for A = 1, where a product for each pair of Lagrange points is all there is.
   void scalar_hessian(const Nodes& q, const ArcPoint& at, int element, Eigen::MatrixXd& k) const
-      requires(A == 1 && !stretches);
+      requires(A == 1);
   /// Stiffens the last node, about to be eliminated, where all that resists a motion of it has cancelled.
   /// @param parts  the size of the terms that its block is a sum of
   void hold_node(Eigen::MatrixXd& block, double parts);
@@ -109,7 +88,8 @@ class CollocationArc final : public Arc {
   /// Place of unknown `column` of element e in the arc's list (interior, q_a, q_b, n, ℓ).
   int place(int element, int column) const;
 
-  Density density_;
+  std::shared_ptr<const Density> density_;
+  bool stretches_;
   std::vector<double> mesh_;
   const CollocationTable& table_;
   std::vector<PartialElimination> element_factors_, node_factors_;
@@ -120,11 +100,16 @@ class CollocationArc final : public Arc {
   mutable Eigen::MatrixXd element_, node_;
 };
 
-/// Builds a CollocationArc with `stages` stages. @throws std::invalid_argument outside [min_stages, max_stages + 1].
+/// Builds a CollocationArc of a density with `stages` stages.
+/// @throws std::invalid_argument outside [min_stages, max_stages + 1].
 template <class Density>
 std::unique_ptr<Arc> make_collocation_arc(const Density& density, const std::vector<double>& mesh,
                                           int stages) {
-  return std::make_unique<CollocationArc<Density>>(density, mesh, stages);
+  return std::make_unique<CollocationArc<typename Density::Configuration, Density::forces>>(
+      std::make_shared<LagrangianOf<Density>>(density), mesh, stages);
 }
 
 }  // namespace windlass::bvp
+
+extern template class windlass::bvp::CollocationArc<windlass::bvp::Coordinates<1>, 2>;
+extern template class windlass::bvp::CollocationArc<windlass::bvp::Coordinates<2>, 2>;

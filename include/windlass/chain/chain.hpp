@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <Eigen/Sparse>
+#include <Eigen/SparseCore>
 #include <memory>
 #include <optional>
 #include <string>

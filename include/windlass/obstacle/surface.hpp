@@ -23,7 +23,9 @@ struct Chart {
   Vector3d normal;                       ///< N, outward: towards the rod
   Eigen::Matrix2d bend;                  ///< h_ij = ∂N/∂u_i·∂X/∂u_j
   Eigen::Matrix2d second(const Vector3d& f) const { return -f.dot(normal) * bend; }  ///< f·∂²X/∂u_i∂u_j
-  Vector2d normal_slope(const Vector3d& f) const { return bend * (tangents.transpose() * f); }  ///< f·∂N/∂u_i
+  Vector2d normal_slope(const Vector3d& f) const {                                   ///< f·∂N/∂u_i
+    return bend * Vector2d(tangents.col(0).dot(f), tangents.col(1).dot(f));
+  }
 };
 
 /// One rigid obstacle that can be developed into a plane.

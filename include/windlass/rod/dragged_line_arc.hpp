@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "windlass/bvp/arc.hpp"
 #include "windlass/bvp/collocation_table.hpp"
 #include "windlass/rod/surface_density.hpp"
 
@@ -39,10 +40,10 @@ class DraggedLineArc final : public bvp::Arc {
   int tangent() const override { return 2; }
   int forces() const override { return 2; }
   int carried() const override { return 2; }
-  int interior_nodes() const override { return still_.interior_nodes(); }
-  int elements() const override { return still_.elements(); }
-  int stages() const override { return still_.stages(); }
-  std::vector<double> mesh() const override { return still_.mesh(); }
+  int interior_nodes() const override { return still_->interior_nodes(); }
+  int elements() const override { return still_->elements(); }
+  int stages() const override { return still_->stages(); }
+  std::vector<double> mesh() const override { return still_->mesh(); }
 
   void gradient(const bvp::ArcPoint& at, double* interior, bvp::EndsVector& ends) const override;
   void factor(const bvp::ArcPoint& at, bvp::EndsMatrix& condensed) override;
@@ -54,13 +55,13 @@ class DraggedLineArc final : public bvp::Arc {
   void hessian(const bvp::ArcPoint& at, std::vector<Eigen::Triplet<double>>& entries) const override;
   Eigen::VectorXd metric(const bvp::ArcPoint& at) const override;
   bvp::ArcSamples sample(const bvp::ArcPoint& at) const override;
-  double energy(const bvp::ArcPoint& at) const override { return still_.energy(at); }
-  std::vector<double> resolution(const bvp::ArcPoint& at) const override { return still_.resolution(at); }
+  double energy(const bvp::ArcPoint& at) const override { return still_->energy(at); }
+  std::vector<double> resolution(const bvp::ArcPoint& at) const override { return still_->resolution(at); }
   std::unique_ptr<bvp::Arc> remeshed(const std::vector<double>& mesh, int stages) const override {
     return std::make_unique<DraggedLineArc>(rod_, mesh, stages);
   }
   Eigen::VectorXd transfer(const bvp::ArcPoint& at, const bvp::Arc& target) const override {
-    return still_.transfer(at, target);
+    return still_->transfer(at, target);
   }
 
  private:
@@ -85,7 +86,8 @@ class DraggedLineArc final : public bvp::Arc {
   void linearise(const bvp::ArcPoint& at, int element, const Element& state) const;
 
   SurfaceDensity rod_;
-  bvp::CollocationArc<SurfaceDensity> still_;  ///< the same arc on a cylinder that stands
+  std::unique_ptr<bvp::Arc> still_;  ///< the same arc on a cylinder that stands
+  std::vector<double> mesh_;
   const bvp::CollocationTable& table_;
   Eigen::MatrixXd stage_;  ///< a(g, k): ∫₀^gauss(g) of the interpolant of values at the Gauss points
   Eigen::PartialPivLU<Eigen::MatrixXd> inner_;

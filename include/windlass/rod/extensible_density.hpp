@@ -1,6 +1,6 @@
 #pragma once
 
-#include "windlass/bvp/collocation_arc.hpp"
+#include "windlass/bvp/lagrangian.hpp"
 #include "windlass/rod/kirchhoff_density.hpp"
 #include "windlass/rod/planar_density.hpp"
 #include "windlass/rod/plane_density.hpp"
@@ -17,9 +17,8 @@ namespace windlass::rod {
 /// which is L of the inextensible rod under the force λ n, λ = 1 + k N frozen, plus ½ k N²; its Hessian has −k ∇N ∇Nᵀ more.
 template <class Inextensible>
 struct Extensible {
-  static constexpr int ambient = Inextensible::ambient, tangent = Inextensible::tangent,
-                       forces = Inextensible::forces;
-  static constexpr double metric_scale = Inextensible::metric_scale;
+  using Configuration = typename Inextensible::Configuration;
+  static constexpr int ambient = Inextensible::ambient, forces = Inextensible::forces;
   static constexpr bool stretches = true;
   using Q = Eigen::Matrix<double, ambient, 1>;
   using Z = Eigen::Matrix<double, 2 * ambient, 1>;
@@ -37,25 +36,22 @@ struct Extensible {
     d *= stretch;
     return value + 0.5 * k * along * along;
   }
-  /// @param d_z  ∂d/∂(q, q')
+  /// @param d_q, d_slope  ∂d/∂q, ∂d/∂q'
   /// @param d_n  ∂d/∂n
   void second(const Q& q, const Q& slope, const Force& n, double k, Z& gz,
               Eigen::Matrix<double, 2 * ambient, 2 * ambient>& hz, Force& d,
-              Eigen::Matrix<double, forces, 2 * ambient>& d_z,
+              Eigen::Matrix<double, forces, ambient>& d_q, Eigen::Matrix<double, forces, ambient>& d_slope,
               Eigen::Matrix<double, forces, forces>& d_n) const {
     const double stretch = 1.0 + k * n.dot(rod.direction(q));
     Eigen::Matrix<double, forces, ambient> dd;
     rod.second(q, slope, Force(stretch * n), gz, hz, d, dd);
     const Q along_q = dd.transpose() * n;
     hz.template topLeftCorner<ambient, ambient>() -= k * along_q * along_q.transpose();
-    d_z.template leftCols<ambient>() = stretch * dd + k * d * along_q.transpose();
-    d_z.template rightCols<ambient>().setZero();
+    d_q = stretch * dd + k * d * along_q.transpose();
+    d_slope.setZero();
     d_n = k * d * d.transpose();
     d *= stretch;
   }
-  Eigen::Matrix<double, ambient, tangent> basis(const Q& q) const { return rod.basis(q); }
-  double radial(const Q& q, const Q& g) const { return rod.radial(q, g); }
-  Q normalised(const Q& q) const { return rod.normalised(q); }
 };
 
 /// On the unit cylinder a stretch λ = 1 + ε bends and twists: a' = λ cos ψ, z' = λ sin ψ, κ_n = λ cos²ψ,
@@ -67,8 +63,8 @@ struct Extensible {
 /// ∂L/∂N = −λ, ∂L/∂Q = ½ λ², and λ − 1 = k n₃ with the tension n₃ = (N − Q)/(1 + k Q).
 template <>
 struct Extensible<SurfaceDensity> {
-  static constexpr int ambient = 2, tangent = 2, forces = 2;
-  static constexpr double metric_scale = 1.0;
+  using Configuration = bvp::Coordinates<2>;
+  static constexpr int ambient = 2, forces = 2;
   static constexpr bool stretches = true;
   using Vector2 = Eigen::Vector2d;
   using Vector4 = Eigen::Vector4d;
@@ -108,7 +104,8 @@ struct Extensible<SurfaceDensity> {
            0.5 * (at.bend - 2.0 * at.force - k * at.force * at.force) / at.divisor;
   }
   void second(const Vector2& q, const Vector2& slope, const Vector2& n, double k, Vector4& gz,
-              Eigen::Matrix4d& hz, Vector2& d, Eigen::Matrix<double, 2, 4>& d_z, Eigen::Matrix2d& d_n) const {
+              Eigen::Matrix4d& hz, Vector2& d, Eigen::Matrix2d& d_q, Eigen::Matrix2d& d_slope,
+              Eigen::Matrix2d& d_n) const {
     first(q, slope, n, k, gz, d);
     const Parts at = parts(q, slope, n, k);
     const Slopes by_psi = slopes(at, slope, n);
@@ -125,14 +122,10 @@ struct Extensible<SurfaceDensity> {
     hz(2, 2) = b;
     hz(3, 3) = t - soft * by_twist * by_twist;
     const Vector2 along(c, s);
-    d_z.setZero();
-    d_z.col(0) = at.stretch * Vector2(-s, c) + soft * by_angle * along;
-    d_z.col(3) = soft * by_twist * along;
+    d_q << at.stretch * Vector2(-s, c) + soft * by_angle * along, Vector2::Zero();
+    d_slope << Vector2::Zero(), soft * by_twist * along;
     d_n = soft * along * along.transpose();
   }
-  Eigen::Matrix2d basis(const Vector2&) const { return Eigen::Matrix2d::Identity(); }
-  double radial(const Vector2&, const Vector2&) const { return 0.0; }
-  Vector2 normalised(const Vector2& q) const { return q; }
 
  private:
   struct Slopes {
@@ -147,8 +140,7 @@ struct Extensible<SurfaceDensity> {
 
 }  // namespace windlass::rod
 
-extern template class windlass::bvp::CollocationArc<windlass::rod::Extensible<windlass::rod::PlanarDensity>>;
-extern template class windlass::bvp::CollocationArc<
-    windlass::rod::Extensible<windlass::rod::KirchhoffDensity>>;
-extern template class windlass::bvp::CollocationArc<windlass::rod::Extensible<windlass::rod::SurfaceDensity>>;
-extern template class windlass::bvp::CollocationArc<windlass::rod::Extensible<windlass::rod::PlaneDensity>>;
+extern template class windlass::bvp::LagrangianOf<windlass::rod::Extensible<windlass::rod::PlanarDensity>>;
+extern template class windlass::bvp::LagrangianOf<windlass::rod::Extensible<windlass::rod::KirchhoffDensity>>;
+extern template class windlass::bvp::LagrangianOf<windlass::rod::Extensible<windlass::rod::SurfaceDensity>>;
+extern template class windlass::bvp::LagrangianOf<windlass::rod::Extensible<windlass::rod::PlaneDensity>>;

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "windlass/bvp/collocation_arc.hpp"
+#include "windlass/bvp/lagrangian.hpp"
 
 namespace windlass::rod {
 
@@ -12,8 +12,8 @@ namespace windlass::rod {
 /// θ is the angle of the tangent to e_x [rad]; n the internal force in the plane [EI/ρ²], constant on the arc.
 /// Stationarity gives θ' = κ̂ + m/EI, m' = n_x sin θ − n_y cos θ (PHYSICS, planar elastica).
 struct PlanarDensity {
-  static constexpr int ambient = 1, tangent = 1, forces = 2;
-  static constexpr double metric_scale = 1.0;
+  using Configuration = bvp::Coordinates<1>;
+  static constexpr int ambient = 1, forces = 2;
   using Scalar = Eigen::Matrix<double, 1, 1>;
 
   double bending_stiffness = 1.0;
@@ -36,11 +36,8 @@ struct PlanarDensity {
     hz << n.dot(d), 0.0, 0.0, bending_stiffness;
     dd << -d(1), d(0);
   }
-  Scalar basis(const Scalar&) const { return Scalar::Ones(); }
-  double radial(const Scalar&, const Scalar&) const { return 0.0; }
-  Scalar normalised(const Scalar& q) const { return q; }
 };
 
 }  // namespace windlass::rod
 
-extern template class windlass::bvp::CollocationArc<windlass::rod::PlanarDensity>;
+extern template class windlass::bvp::LagrangianOf<windlass::rod::PlanarDensity>;

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "windlass/bvp/collocation_arc.hpp"
+#include "windlass/bvp/lagrangian.hpp"
 
 namespace windlass::rod {
 
@@ -17,8 +17,8 @@ namespace windlass::rod {
 ///
 /// u₀ and u₁ are cyclic: the force's components n₀, n₁ in the plane [EI/ρ²] are constant on the arc.
 struct PlaneDensity {
-  static constexpr int ambient = 2, tangent = 2, forces = 2;
-  static constexpr double metric_scale = 1.0;
+  using Configuration = bvp::Coordinates<2>;
+  static constexpr int ambient = 2, forces = 2;
   using Vector2 = Eigen::Vector2d;
   using Vector4 = Eigen::Vector4d;
 
@@ -55,11 +55,8 @@ struct PlaneDensity {
     hz(3, 3) = stiffness(2);
     dd << -d(1), 0.0, d(0), 0.0;
   }
-  Eigen::Matrix2d basis(const Vector2&) const { return Eigen::Matrix2d::Identity(); }
-  double radial(const Vector2&, const Vector2&) const { return 0.0; }
-  Vector2 normalised(const Vector2& q) const { return q; }
 };
 
 }  // namespace windlass::rod
 
-extern template class windlass::bvp::CollocationArc<windlass::rod::PlaneDensity>;
+extern template class windlass::bvp::LagrangianOf<windlass::rod::PlaneDensity>;

@@ -28,6 +28,14 @@ inline Quaternion rotation(const Eigen::Vector3d& axis, double angle) {
   return q;
 }
 
+/// The least rotation that takes the unit vector `from` to `to`, which are not opposite.
+inline Quaternion turn_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  Quaternion q;
+  q(0) = 1.0 + from.dot(to);
+  q.tail<3>() = from.cross(to);
+  return q.normalized();
+}
+
 /// q ⊗ (1, v), normalised.
 inline Quaternion retract(const Quaternion& q, const Eigen::Vector3d& v) {
   return product(q, Quaternion(1.0, v(0), v(1), v(2))) / std::sqrt(1.0 + v.squaredNorm());
@@ -42,6 +50,16 @@ inline Eigen::Matrix<double, 4, 3> increments(const Quaternion& q) {
       -q(2), q(1), q(0);
   return t;
 }
+
+/// Unit quaternions as the configurations of an arc (bvp::CollocationArc).
+struct UnitQuaternions {
+  static constexpr int ambient = 4, tangent = 3;
+  static constexpr double metric_scale = 4.0;  ///< an increment v turns the frame by 2v
+
+  static Eigen::Matrix<double, 4, 3> basis(const Quaternion& q) { return increments(q); }
+  static double radial(const Quaternion& q, const Quaternion& g) { return -g.dot(q); }
+  static Quaternion normalised(const Quaternion& q) { return q.normalized(); }
+};
 
 /// Rotation matrix with the directors d1, d2, d3 as columns. q must be a unit quaternion.
 inline Eigen::Matrix3d directors(const Quaternion& q) {

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "windlass/bvp/collocation_arc.hpp"
+#include "windlass/bvp/lagrangian.hpp"
 
 namespace windlass::rod {
 
@@ -17,8 +17,8 @@ namespace windlass::rod {
 ///
 /// a and z are cyclic (frictionless): their momenta n_a [EI/ρ] and n_z [EI/ρ²] are constant on the arc.
 struct SurfaceDensity {
-  static constexpr int ambient = 2, tangent = 2, forces = 2;
-  static constexpr double metric_scale = 1.0;
+  using Configuration = bvp::Coordinates<2>;
+  static constexpr int ambient = 2, forces = 2;
   using Vector2 = Eigen::Vector2d;
   using Vector4 = Eigen::Vector4d;
 
@@ -52,11 +52,8 @@ struct SurfaceDensity {
     hz(3, 3) = twisting_stiffness;
     dd << -s, 0.0, c, 0.0;
   }
-  Eigen::Matrix2d basis(const Vector2&) const { return Eigen::Matrix2d::Identity(); }
-  double radial(const Vector2&, const Vector2&) const { return 0.0; }
-  Vector2 normalised(const Vector2& q) const { return q; }
 };
 
 }  // namespace windlass::rod
 
-extern template class windlass::bvp::CollocationArc<windlass::rod::SurfaceDensity>;
+extern template class windlass::bvp::LagrangianOf<windlass::rod::SurfaceDensity>;

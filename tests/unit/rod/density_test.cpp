@@ -64,16 +64,17 @@ void check_stretching(const Density& density) {
     Z g, g_up, g_down;
     N d, d_up, d_down;
     Eigen::Matrix<double, 2 * a, 2 * a> hessian;
-    Eigen::Matrix<double, p, 2 * a> d_z;
+    Eigen::Matrix<double, p, a> d_q, d_slope;
     Eigen::Matrix<double, p, p> d_n;
-    density.second(Q(z.template head<a>()), Q(z.template tail<a>()), n, k, g, hessian, d, d_z, d_n);
+    density.second(Q(z.template head<a>()), Q(z.template tail<a>()), n, k, g, hessian, d, d_q, d_slope, d_n);
     const double scale = 1.0 + hessian.norm();
     for (int i = 0; i < 2 * a; ++i) {
       const double up = first(z + h * Z::Unit(i), n, g_up, d_up),
                    down = first(z - h * Z::Unit(i), n, g_down, d_down);
       BOOST_TEST(std::abs((up - down) / (2.0 * h) - g(i)) < bound * scale);
       BOOST_TEST(((g_up - g_down) / (2.0 * h) - hessian.col(i)).norm() < 10.0 * bound * scale);
-      BOOST_TEST(((d_up - d_down) / (2.0 * h) - d_z.col(i)).norm() < bound * scale);
+      BOOST_TEST(((d_up - d_down) / (2.0 * h) - (i < a ? d_q.col(i) : d_slope.col(i - a))).norm() <
+                 bound * scale);
     }
     for (int i = 0; i < p; ++i) {
       const double up = first(z, n + h * N::Unit(i), g_up, d_up),

@@ -127,8 +127,7 @@ BOOST_AUTO_TEST_CASE(without_friction_the_forces_are_conserved) {
   VectorXd interior(f.arc.interior_tangent()), still_interior = interior;
   bvp::EndsVector ends, still_ends;
   f.arc.gradient(at, interior.data(), ends);
-  bvp::CollocationArc<rod::SurfaceDensity>(density, f.arc.mesh(), 4)
-      .gradient(at, still_interior.data(), still_ends);
+  bvp::make_collocation_arc(density, f.arc.mesh(), 4)->gradient(at, still_interior.data(), still_ends);
   BOOST_TEST((interior - still_interior).norm() < 1e-13);
   BOOST_TEST((ends.head(6) - still_ends.head(6)).norm() < 1e-13);
   BOOST_TEST(ends.tail(2).norm() == 0.0);
