@@ -8,6 +8,7 @@
 
 #include "app/commands.hpp"
 #include "windlass/equilibrium/follow.hpp"
+#include "windlass/equilibrium/rod_problem.hpp"
 #include "windlass/measurement/dragged_fit.hpp"
 #include "windlass/measurement/fit_picture.hpp"
 #include "windlass/output/stable_state.hpp"

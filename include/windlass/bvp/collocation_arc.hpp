@@ -78,7 +78,7 @@ class CollocationArc final : public Arc {
   void vector_hessian(const Nodes& q, const ArcPoint& at, int element, Eigen::MatrixXd& k) const;
   /// The same for A = 1, where a product for each pair of Lagrange points is all there is.
   void scalar_hessian(const Nodes& q, const ArcPoint& at, int element, Eigen::MatrixXd& k) const
-      requires(A == 1);
+      requires(Configuration::ambient == 1);
   /// Stiffens the last node, about to be eliminated, where all that resists a motion of it has cancelled.
   /// @param parts  the size of the terms that its block is a sum of
   void hold_node(Eigen::MatrixXd& block, double parts);
