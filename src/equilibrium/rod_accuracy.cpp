@@ -195,9 +195,12 @@ double RodProblem::excess(const Vector& x, const Vector& p) {
   // In long helices estimates below this are rounding's: no mesh brings less, and ever finer ones bring more.
   constexpr double attainable = 2e-12;
   const double goal = std::max(scene_.model.tolerance, attainable);
-  const auto beyond = [](double error, double floor) { return error > 3.0 * floor ? error : 0.0; };
-  const double error = beyond(error_estimate(x, p), error_floor_);
-  return std::max(error / goal, beyond(nodal_error_, nodal_floor_) / nodal_goal());
+  const auto beyond = [](double error, double most) { return error > most ? error : 0.0; };
+  const double error = beyond(error_estimate(x, p), 3.0 * error_floor_);
+  // What a mesh adds to rounding is forgiven as long as certificates bear both.
+  const double forgiven =
+      nodal_floor_ < bearable() ? std::min(3.0 * nodal_floor_, bearable()) : 3.0 * nodal_floor_;
+  return std::max(error / goal, beyond(nodal_error_, forgiven) / nodal_goal());
 }
 
 void RodProblem::note_rounding(double error_before) {
@@ -213,6 +216,8 @@ double RodProblem::nodal_goal() const {
   // The tolerance is the target's: frames beside short arcs round to no better than certificates ask.
   return share * certificate_level / stiffest;
 }
+
+double RodProblem::bearable() const { return 2.0 * nodal_goal(); }
 
 Vector RodProblem::refine(Vector x, const Vector& p, int rounds) {
   bool refined = false;  // with less error asked for, not only distributed evenly
@@ -253,7 +258,8 @@ std::optional<Vector> RodProblem::moved_to(std::vector<chain::ArcMesh> meshes, c
     constexpr double by_mesh = 0.05;
     const double old_error = std::get<0>(old_errors);
     const bool closer = old_error > scene_.model.tolerance && last_error_ < towards * old_error;
-    if (!within && (closer || nodal_error_ < by_mesh * old_nodal)) return fresh;
+    const bool saves = old_nodal > bearable() && nodal_error_ <= bearable();  // the certificate
+    if (!within && (closer || saves || nodal_error_ < by_mesh * old_nodal)) return fresh;
     if (!within) {  // rounding: no mesh helps
       nodal_floor_ = std::max(nodal_error_, old_nodal);
       note_rounding(old_error);
