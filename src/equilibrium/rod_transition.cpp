@@ -218,12 +218,7 @@ std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const 
     return entered;
   }
   Entry beside = guess;
-  const double scale = std::max(1.0, std::abs(beside.p(0)));
-  const bool settled = becomes_touch ? settle_touch(beside)
-                       : event.redrawn
-                           ? settle_beside(beside, {0.0})
-                           : settle_beside(beside, {0.0, -0.02 * scale, 0.02 * scale, -0.008 * scale,
-                                                    0.008 * scale, -0.002 * scale, 0.002 * scale});
+  const bool settled = becomes_touch ? settle_touch(beside) : settle_beside(beside, {0.0});
   return settled ? std::optional(beside) : std::nullopt;
 }
 
