@@ -161,7 +161,7 @@ class RodProblem final : public continuation::Problem {
   /// Errors divided by what is allowed: of the target by the tolerance, of the nodes by the certificate's level.
   double excess(const Vector& x, const Vector& p);
   double nodal_goal() const;
-  double bearable() const;  ///< nodal error with which certificates still pass; what they see is three times that
+  double bearable() const;  ///< nodal error that certificates, which see three times that, still pass
   /// After a refinement that asked for less than `error_before`.
   void note_rounding(double error_before);
   std::vector<chain::ArcMesh> new_meshes(const Vector& x, const contact::Loads& loads, double growth) const;
