@@ -89,7 +89,8 @@ void CollocationArc<Configuration, P>::vector_hessian(const Nodes& q, const ArcP
 
 template <class Configuration, int P>
 void CollocationArc<Configuration, P>::scalar_hessian(const Nodes& q, const ArcPoint& at, int element,
-                                                      Eigen::MatrixXd& k) const requires(Configuration::ambient == 1) {
+                                                      Eigen::MatrixXd& k) const
+    requires(Configuration::ambient == 1) {
   const int m = stages(), first = inner() + 2 * D, length = inner() + E - 1;
   const double h = mesh_[element + 1] - mesh_[element], inverse = 1.0 / (h * at.length);
   using Row = PaddedTable::Row;
