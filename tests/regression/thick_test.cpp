@@ -227,7 +227,8 @@ BOOST_AUTO_TEST_CASE(spectra_of_touches_next_to_each_other) {
   follow(folder, one_turn, 1.0 / 6.0, 9.95, 9.9);
   const Outcome outcome = run_program({"stability", "run", "--json"}, folder.path());
   BOOST_TEST(outcome.status == 0, outcome.err);
-  for (const auto& point : nlohmann::json::parse(outcome.out)["points"]) {
+  const auto spectra = nlohmann::json::parse(outcome.out);
+  for (const auto& point : spectra.at("points")) {
     BOOST_TEST(point.at("index") == 0);
     BOOST_TEST(point.at("inertia_index") == 0);
     // The pull's slowest mode, a twist of the tails: the same all along.
