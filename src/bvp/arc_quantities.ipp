@@ -35,9 +35,9 @@ ArcSamples CollocationArc<Configuration, P>::sample(const ArcPoint& at) const {
     gather(at, e, q);
     Force g_n = Force::Zero();
     double g_length = 0.0;
-    element_gradient(q, at, e, g, g_n, g_length);
     gauss_sections(q, at, e, sections);
     density_->first(sections, first.data());
+    element_gradient(sections, first, at, e, g, g_n, g_length);
     Eigen::MatrixXd directions(P, m), loads(A, m);
     for (int j = 0; j < m; ++j) {
       loads.col(j) = first[j].gz.template head<A>();
@@ -82,7 +82,7 @@ double CollocationArc<Configuration, P>::energy(const ArcPoint& at) const {
   double sum = 0.0;
   Nodes q;
   Sections<A, P> sections;
-  std::array<double, max_points> density;
+  std::array<double, max_sections> density;
   for (int e = 0; e < elements(); ++e) {
     gather(at, e, q);
     gauss_sections(q, at, e, sections);

@@ -10,10 +10,7 @@ namespace windlass::bvp {
 template <class Configuration, int P>
 CollocationArc<Configuration, P>::CollocationArc(std::shared_ptr<const Density> density,
                                                  std::vector<double> mesh, int stages)
-    : density_(std::move(density)),
-      stretches_(density_->stretches()),
-      mesh_(std::move(mesh)),
-      table_(CollocationTable::get(stages)) {
+    : density_(std::move(density)), mesh_(std::move(mesh)), table_(CollocationTable::get(stages)) {
   if (mesh_.size() < 2) throw std::invalid_argument("an arc's mesh needs at least one element");
   element_factors_.resize(mesh_.size() - 1);
   node_factors_.resize(mesh_.size() - 2);
@@ -100,14 +97,11 @@ void CollocationArc<Configuration, P>::gauss_sections(const Nodes& q, const ArcP
 }
 
 template <class Configuration, int P>
-void CollocationArc<Configuration, P>::element_gradient(const Nodes& q, const ArcPoint& at, int element,
-                                                        Nodes& out, Force& g_n, double& g_length) const {
+void CollocationArc<Configuration, P>::element_gradient(Sections<A, P>& sections, const Firsts& first,
+                                                        const ArcPoint& at, int element, Nodes& out,
+                                                        Force& g_n, double& g_length) const {
   const double h = mesh_[element + 1] - mesh_[element];
   const int m = stages();
-  Sections<A, P> sections;
-  Firsts first;
-  gauss_sections(q, at, element, sections);
-  density_->first(sections, first.data());
   for (int g = 0; g < m; ++g) {
     const double w = h * table_.weight(g);
     g_n -= w * at.length * first[g].d;
@@ -143,9 +137,13 @@ void CollocationArc<Configuration, P>::gradient(const ArcPoint& at, double* inte
   double g_length = 0.0;
   const int last = elements() * stages();
   Nodes q, g;
+  Sections<A, P> sections;
+  Firsts first;
   for (int e = 0; e < elements(); ++e) {
     gather(at, e, q);
-    element_gradient(q, at, e, g, g_n, g_length);
+    gauss_sections(q, at, e, sections);
+    density_->first(sections, first.data());
+    element_gradient(sections, first, at, e, g, g_n, g_length);
     for (int i = 0; i <= stages(); ++i) {
       const int k = e * stages() + i;
       const Eigen::Matrix<double, D, 1> projected = Configuration::basis(q.col(i)).transpose() * g.col(i);

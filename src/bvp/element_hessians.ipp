@@ -9,7 +9,7 @@ template <class Configuration, int P>
 void CollocationArc<Configuration, P>::element_hessian(const Nodes& q, const ArcPoint& at, int element,
                                                        Eigen::MatrixXd& k) const {
   if constexpr (A == 1)
-    if (!stretches_) return scalar_hessian(q, at, element, k);
+    if (!density_->stretches()) return scalar_hessian(q, at, element, k);
   vector_hessian(q, at, element, k);
 }
 
@@ -21,12 +21,13 @@ void CollocationArc<Configuration, P>::vector_hessian(const Nodes& q, const ArcP
                                                       Eigen::MatrixXd& k) const {
   const int m = stages(), columns = inner() + 2 * D, length = inner() + E - 1;
   const double h = mesh_[element + 1] - mesh_[element], inverse = 1.0 / (h * at.length);
+  const bool stretches = density_->stretches();
   // Sums over the Gauss points in ambient coordinates, a Lagrange point or a pair of them each; projected at the end.
   using Block = Eigen::Matrix<double, A, A>;
-  std::array<std::array<Block, max_points>, max_points> pairs;
-  std::array<Eigen::Matrix<double, P, A>, max_points> forces;
-  std::array<Ambient, max_points> ambient, by_length;
-  std::array<Block, max_points> of_value, of_slope;
+  std::array<std::array<Block, max_sections>, max_sections> pairs;
+  std::array<Eigen::Matrix<double, P, A>, max_sections> forces;
+  std::array<Ambient, max_sections> ambient, by_length;
+  std::array<Block, max_sections> of_value, of_slope;
   for (int i = 0; i <= m; ++i) {
     for (int j = 0; j <= i; ++j) pairs[i][j].setZero();
     forces[i].setZero(), ambient[i].setZero(), by_length[i].setZero();
@@ -45,7 +46,7 @@ void CollocationArc<Configuration, P>::vector_hessian(const Nodes& q, const ArcP
             slope_by_length = -hz.template bottomRightCorner<A, A>() * slope;
     k.template block<1, P>(length, columns) -= w * d.transpose();
     k(length, length) -= w / at.length * slope.dot(slope_by_length);
-    if (stretches_) {
+    if (stretches) {
       Force n_length = Force::Zero();
       if (at.weight) n_length = -along(at, element, g) / at.length * Eigen::Map<const Force>(at.weight);
       value_by_length -= at.length * (d_q.transpose() * n_length);
@@ -64,12 +65,12 @@ void CollocationArc<Configuration, P>::vector_hessian(const Nodes& q, const ArcP
       of_slope[i] = v * sq + s * ss;
       for (int j = 0; j <= i; ++j) pairs[i][j] += v * of_value[j] + s * of_slope[j];
       forces[i] -= (wl * v) * d_q;
-      if (stretches_) forces[i] -= (wl * s) * d_slope;
+      if (stretches) forces[i] -= (wl * s) * d_slope;
       by_length[i] += (w * v) * value_by_length + (w * s) * slope_by_length;
       ambient[i] += (wl * v) * gz.template head<A>() + (wl * s) * gz.template tail<A>();
     }
   }
-  std::array<Eigen::Matrix<double, A, D>, max_points> basis;
+  std::array<Eigen::Matrix<double, A, D>, max_sections> basis;
   for (int i = 0; i <= m; ++i) {
     const int c = column(i);
     basis[i] = Configuration::basis(q.col(i));
@@ -95,8 +96,8 @@ void CollocationArc<Configuration, P>::scalar_hessian(const Nodes& q, const ArcP
   const double h = mesh_[element + 1] - mesh_[element], inverse = 1.0 / (h * at.length);
   using Row = PaddedTable::Row;
   const PaddedTable& table = PaddedTable::get(m);
-  std::array<Row, max_points> pairs;  // second derivatives, a column for each Lagrange point
-  std::array<Row, P + 1> forces;      // and those with n and ℓ
+  std::array<Row, max_sections> pairs;  // second derivatives, a column for each Lagrange point
+  std::array<Row, P + 1> forces;        // and those with n and ℓ
   for (int j = 0; j <= m; ++j) pairs[j].setZero();
   for (Row& row : forces) row.setZero();
   Sections<A, P> sections;

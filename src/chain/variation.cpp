@@ -173,8 +173,9 @@ Variation::Doubt Variation::doubt() const {
     motion.setZero();
     expand(small.vectors.col(k), motion);
     const double weight = rotations(motion).squaredNorm();
-    // Forces that hold the same, of touches next to each other, move nothing. A force is a negative direction, however little it
-    // does by itself and whatever sign rounding gives that. Motions bring forces of up to 1e5 with them: weights of 1e-10.
+    // Forces that hold the same, of touches next to each other, move nothing. A force is a negative direction,
+    // however little it does by itself and whatever sign rounding gives that. Motions bring forces of up to 1e5
+    // with them: weights of 1e-10.
     if (weight < std::numeric_limits<double>::epsilon()) {
       out.negative += value > 0.0;
       continue;

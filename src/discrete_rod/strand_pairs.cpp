@@ -56,8 +56,8 @@ std::optional<double> foot(const SplineRod::Controls& controls, const Point& at)
     const double first = gap.dot(slope), second = slope.squaredNorm() + gap.dot(curvature);
     const double step = second > 0.0 ? -first / second : (first > 0.0 ? -0.5 : 0.5);
     const double next = std::clamp(t + step, -0.5, 1.5);
-    // Newton's next step would be the square of this one. Steps at rounding need not become smaller than they are: a foot
-    // that was lost for that made the energy jump.
+    // Newton's next step would be the square of this one. Steps at rounding need not become smaller than they
+    // are: a foot that was lost for that made the energy jump.
     const bool settled = std::abs(next - t) < 1e-9;
     t = next;
     if (!settled) continue;

@@ -1,6 +1,5 @@
 #include "windlass/verify/shadow.hpp"
 
-#include <Eigen/Sparse>
 #include <algorithm>
 #include <cmath>
 

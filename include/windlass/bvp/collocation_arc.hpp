@@ -54,12 +54,11 @@ class CollocationArc final : public Arc {
   Eigen::VectorXd transfer(const ArcPoint& at, const Arc& target) const override;
 
  private:
-  static constexpr int max_points = max_sections;
   using Nodes = typename Sections<A, P>::Columns;  ///< one element's configurations
   using Ambient = Eigen::Matrix<double, A, 1>;
   using Force = Eigen::Matrix<double, P, 1>;
-  using Firsts = std::array<typename Density::First, max_points>;
-  using Seconds = std::array<typename Density::Second, max_points>;
+  using Firsts = std::array<typename Density::First, max_sections>;
+  using Seconds = std::array<typename Density::Second, max_sections>;
 
   /// How far along the arc Gauss point g of an element is.
   double along(const ArcPoint& at, int element, int g) const {
@@ -71,8 +70,10 @@ class CollocationArc final : public Arc {
   /// The element's Gauss points.
   void gauss_sections(const Nodes& q, const ArcPoint& at, int element, Sections<A, P>& out) const;
   /// Gradient of one element's action, one ambient column a Lagrange point; force and length parts are added to.
-  void element_gradient(const Nodes& q, const ArcPoint& at, int element, Nodes& g, Force& g_n,
-                        double& g_length) const;
+  /// @param sections  its Gauss points, used up
+  /// @param first     the density there
+  void element_gradient(Sections<A, P>& sections, const Firsts& first, const ArcPoint& at, int element,
+                        Nodes& g, Force& g_n, double& g_length) const;
   /// Hessian of one element's action, ordered interior, left, right, n, ℓ; lower triangle valid.
   void element_hessian(const Nodes& q, const ArcPoint& at, int element, Eigen::MatrixXd& k) const;
   void vector_hessian(const Nodes& q, const ArcPoint& at, int element, Eigen::MatrixXd& k) const;
@@ -89,7 +90,6 @@ class CollocationArc final : public Arc {
   int place(int element, int column) const;
 
   std::shared_ptr<const Density> density_;
-  bool stretches_;
   std::vector<double> mesh_;
   const CollocationTable& table_;
   std::vector<PartialElimination> element_factors_, node_factors_;
