@@ -166,8 +166,7 @@ void BranchRecorder::on_special_point(const Branch& branch, const Point& point) 
   if (point.type == PointType::event) {
     const auto of_mesh = equilibrium::event_precision(problem, point.x, point.p, point.event);
     const auto of_touches = equilibrium::layout_precision(problem, point.x, point.p, point.event);
-    entry.precision = std::max({entry.precision, problem.as_given(of_mesh.value_or(0.0)),
-                                problem.as_given(of_touches.value_or(0.0))});
+    entry.precision += problem.as_given(of_mesh.value_or(0.0)) + problem.as_given(of_touches.value_or(0.0));
   }
   entry.multiplicity = std::max(
       1, point.type == PointType::branch_point ? std::max(point.multiplicity, kernel_) : point.multiplicity);
