@@ -13,10 +13,18 @@ void dsytrf_(const char* uplo, const int* n, double* a, const int* lda, int* piv
              const int* work_size, int* info);
 void dsytrs_(const char* uplo, const int* n, const int* columns, const double* a, const int* lda,
              const int* pivot, double* b, const int* ldb, int* info);
-void dsyevr_(const char* job, const char* range, const char* uplo, const int* n, double* a, const int* lda,
-             const double* low, const double* high, const int* first, const int* last,
-             const double* tolerance, int* found, double* values, double* vectors, const int* ldz,
-             int* support, double* work, const int* work_size, int* iwork, const int* iwork_size, int* info);
+void dsytrd_(const char* uplo, const int* n, double* a, const int* lda, double* diagonal, double* beside,
+             double* tau, double* work, const int* work_size, int* info);
+void dstebz_(const char* range, const char* order, const int* n, const double* low, const double* high,
+             const int* first, const int* last, const double* tolerance, const double* diagonal,
+             const double* beside, int* found, int* splits, double* values, int* block, int* split,
+             double* work, int* iwork, int* info);
+void dstein_(const int* n, const double* diagonal, const double* beside, const int* count,
+             const double* values, const int* block, const int* split, double* vectors, const int* ldz,
+             double* work, int* iwork, int* failed, int* info);
+void dormtr_(const char* side, const char* uplo, const char* transposed, const int* rows, const int* columns,
+             const double* a, const int* lda, const double* tau, double* c, const int* ldc, double* work,
+             const int* work_size, int* info);
 }
 
 namespace windlass::chain {
@@ -62,26 +70,80 @@ void SymmetricFactors::solve(Eigen::VectorXd& rhs) const {
 
 namespace {
 
-/// Those within (−bound, bound] with vectors; bound 0: all, without.
-void eigenvalues(Eigen::MatrixXd a, double bound, Eigen::VectorXd& values, Eigen::MatrixXd& vectors) {
-  const int n = static_cast<int>(a.rows()), none = 0;
-  const bool all = bound == 0.0;
-  const double low = -bound, least = 0.0;
-  int found = 0, info = 0;
-  values.resize(n);
-  vectors.resize(n, all ? 0 : n);
-  const int ldz = std::max(n, 1);
-  std::vector<int> support(2 * static_cast<std::size_t>(ldz));
-  const int work_size = 66 * ldz, iwork_size = 10 * ldz;
-  std::vector<double> work(static_cast<std::size_t>(work_size));
-  std::vector<int> iwork(static_cast<std::size_t>(iwork_size));
-  dsyevr_(all ? "N" : "V", all ? "A" : "V", "L", &n, a.data(), &ldz, &low, &bound, &none, &none, &least,
-          &found, values.data(), vectors.data(), &ldz, support.data(), work.data(), &work_size, iwork.data(),
-          &iwork_size, &info);
-  if (info != 0) throw std::domain_error("a second variation that is not finite has no eigenvalues");
-  values.conservativeResize(found);
-  if (!all) vectors.conservativeResize(n, found);
-}
+/// A = Q T Qᵀ with T tridiagonal: the dear part of an eigenvalue problem, done once for all that is asked of A.
+class Tridiagonal {
+ public:
+  explicit Tridiagonal(Eigen::MatrixXd a)
+      : reflectors_(std::move(a)),
+        n_(static_cast<int>(reflectors_.rows())),
+        diagonal_(n_),
+        beside_(n_),
+        tau_(n_) {
+    Eigen::VectorXd work(64 * n_);
+    const int work_size = static_cast<int>(work.size());
+    int info = 0;
+    if (!reflectors_.allFinite())
+      throw std::domain_error("a second variation that is not finite has no eigenvalues");
+    dsytrd_("L", &n_, reflectors_.data(), &n_, diagonal_.data(), beside_.data(), tau_.data(), work.data(),
+            &work_size, &info);
+  }
+
+  double largest() const {
+    return std::max(std::abs(within("I", 0.0, 0.0, 1, 1).values(0)),
+                    std::abs(within("I", 0.0, 0.0, n_, n_).values(0)));
+  }
+
+  /// How many eigenvalues are smaller (Sturm).
+  int below(double bound) const {
+    constexpr double smallest = std::numeric_limits<double>::min();
+    int count = 0;
+    double pivot = 1.0;
+    for (int k = 0; k < n_; ++k) {
+      pivot = diagonal_(k) - bound - (k > 0 ? beside_(k - 1) * beside_(k - 1) / pivot : 0.0);
+      if (std::abs(pivot) < smallest) pivot = -smallest;
+      count += pivot < 0.0;
+    }
+    return count;
+  }
+
+  /// Eigenvalues in (−bound, bound] and their vectors.
+  void near_zero(double bound, Eigen::VectorXd& values, Eigen::MatrixXd& vectors) const {
+    const Found found = within("V", -bound, bound, 1, 1);
+    const int count = static_cast<int>(found.values.size());
+    values = found.values;
+    vectors.resize(n_, count);
+    if (count == 0) return;
+    Eigen::VectorXd work(std::max(5, 64) * static_cast<Eigen::Index>(n_));
+    std::vector<int> iwork(n_), failed(count);
+    const int work_size = static_cast<int>(work.size());
+    int info = 0;
+    dstein_(&n_, diagonal_.data(), beside_.data(), &count, values.data(), found.block.data(),
+            found.split.data(), vectors.data(), &n_, work.data(), iwork.data(), failed.data(), &info);
+    dormtr_("L", "L", "N", &n_, &count, reflectors_.data(), &n_, tau_.data(), vectors.data(), &n_,
+            work.data(), &work_size, &info);
+  }
+
+ private:
+  struct Found {
+    Eigen::VectorXd values;
+    std::vector<int> block, split;
+  };
+  Found within(const char* range, double low, double high, int first, int last) const {
+    constexpr double finest = 0.0;
+    Found out{Eigen::VectorXd(n_), std::vector<int>(n_), std::vector<int>(n_)};
+    Eigen::VectorXd work(4 * n_);
+    std::vector<int> iwork(3 * static_cast<std::size_t>(n_));
+    int found = 0, splits = 0, info = 0;
+    dstebz_(range, "B", &n_, &low, &high, &first, &last, &finest, diagonal_.data(), beside_.data(), &found,
+            &splits, out.values.data(), out.block.data(), out.split.data(), work.data(), iwork.data(), &info);
+    out.values.conservativeResize(found);
+    return out;
+  }
+
+  Eigen::MatrixXd reflectors_;
+  int n_;
+  Eigen::VectorXd diagonal_, beside_, tau_;
+};
 
 }  // namespace
 
@@ -89,7 +151,7 @@ SmallEigenvalues small_eigenvalues(const Eigen::MatrixXd& a, double close) {
   SmallEigenvalues out;
   if (a.rows() == 0) return out;
   // Up to here all vectors cost less than a Newton step. Signs at rounding are those of whichever way is taken.
-  constexpr Eigen::Index few = 500;
+  constexpr Eigen::Index few = 250;
   if (a.rows() <= few) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(a);
     const Eigen::VectorXd& values = eigen.eigenvalues();
@@ -100,12 +162,11 @@ SmallEigenvalues small_eigenvalues(const Eigen::MatrixXd& a, double close) {
     out.vectors = eigen.eigenvectors().middleCols(begin, end - begin);
     return out;
   }
-  Eigen::VectorXd all;
-  eigenvalues(a, 0.0, all, out.vectors);
-  const double bound = close * all.cwiseAbs().maxCoeff();
-  if ((all.array().abs() <= bound).any()) eigenvalues(a, bound, out.values, out.vectors);
+  const Tridiagonal tridiagonal(a);
+  const double bound = close * tridiagonal.largest();
+  tridiagonal.near_zero(bound, out.values, out.vectors);
   // The signs of those next to nothing are those of the values given: another way to them rounds differently.
-  out.negative = static_cast<int>((all.array() < -bound).count() + (out.values.array() < 0.0).count());
+  out.negative = tridiagonal.below(-bound) + static_cast<int>((out.values.array() < 0.0).count());
   return out;
 }
 

@@ -27,10 +27,12 @@ Variation::Variation(const Linearisation& at, Parity parity) : at_(at) {
   for (Eigen::Index k = 0; k < numbering.size; ++k) dense_.push_back(k);
   for (int i = 0; i < chain.link_count(); ++i) place(purpose, numbering, i);
   const auto count = static_cast<Eigen::Index>(dense_.size());
-  joints_ = MatrixXd::Zero(count, count);
-  joints_.topLeftCorner(numbering.size, numbering.size) =
+  MatrixXd dense = MatrixXd::Zero(count, count);
+  dense.topLeftCorner(numbering.size, numbering.size) =
       chain.variation_matrix(purpose, numbering, at.x_, at.loads_);
-  MatrixXd dense = joints_;
+  for (Eigen::Index c = 0; c < count; ++c)
+    for (Eigen::Index r = 0; r < count; ++r)
+      if (dense(r, c) != 0.0) joints_.emplace_back(r, c, dense(r, c));
   for (int i = 0; i < chain.link_count(); ++i) {
     const Place& here = places_[i];
     const auto& dofs = here.local.dofs;
@@ -258,8 +260,10 @@ VectorXd Variation::product(const VectorXd& v) const {
     for (Eigen::Index r = 0; r < share.size(); ++r) out(here.at[r]) += share(r);
   }
   for (Eigen::Index k = 0; k < y.size(); ++k) y(k) = v(dense_[k]);
-  const VectorXd joints = 0.5 * (joints_ * y + joints_.transpose() * y);
-  for (Eigen::Index k = 0; k < y.size(); ++k) out(dense_[k]) += joints(k);
+  for (const auto& entry : joints_) {
+    out(dense_[entry.row()]) += 0.5 * entry.value() * y(entry.col());
+    out(dense_[entry.col()]) += 0.5 * entry.value() * y(entry.row());
+  }
   if (phase_ >= 0) {
     out += v(phase_) * motion_;
     out(phase_) += motion_.dot(v);
@@ -282,11 +286,7 @@ Variation::Quotient Variation::quotient(const VectorXd& v) const {
     w.tail(here.local.columns.rows()) = here.local.columns * gathered(here, v);
     for (const auto& entry : part.hessian) add(entry.value() * w(entry.row()) * w(entry.col()));
   }
-  VectorXd y(dense_.size());
-  for (Eigen::Index k = 0; k < y.size(); ++k) y(k) = v(dense_[k]);
-  for (Eigen::Index c = 0; c < y.size(); ++c)
-    for (Eigen::Index r = 0; r < y.size(); ++r)
-      if (joints_(r, c) != 0.0) add(y(r) * joints_(r, c) * y(c));
+  for (const auto& entry : joints_) add(entry.value() * v(dense_[entry.row()]) * v(dense_[entry.col()]));
   if (phase_ >= 0) add(2.0 * v(phase_) * motion_.dot(v));
   const double size = rotations(v).squaredNorm();
   return {value / size, std::numeric_limits<double>::epsilon() * sizes / size};

@@ -65,7 +65,9 @@ int RodProblem::count(const Vector& x, const Vector& p, contact::Parity parity, 
     const Loads loads = this->loads(p);
     const chain::Chain::Inertia inertia = chain_->inertia(x, loads, parity);
     negative = inertia.negative;
-    if (inertia.near_rounding) {
+    // The factors' signs are one choice of those that rounding leaves open: where they say what held at the last point, that
+    // stands, and the spectrum of the block is not asked.
+    if (inertia.near_rounding && negative != last) {
       const chain::Linearisation linearised(*chain_, rod_, x, loads);
       const chain::Variation::Doubt doubt = chain::Variation(linearised, parity).doubt();
       negative = doubt.negative, rounded = doubt.rounded;

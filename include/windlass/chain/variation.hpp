@@ -116,8 +116,8 @@ class Variation {
   std::vector<Eigen::Index> locations_;  ///< rows of touches' arclengths in the dense block, −1: none
   MatrixXd condensed_;                   ///< dense block, before anything is held in it
   int condensed_negative_ = 0;           ///< negative eigenvalues that it adds to
-  MatrixXd joints_;                      ///< terms of the dense block that no arc makes
-  VectorXd motion_;                      ///< the phase's row over v
+  std::vector<Eigen::Triplet<double>> joints_;  ///< terms of the dense block that no arc makes
+  VectorXd motion_;                             ///< the phase's row over v
   std::shared_ptr<const class SymmetricFactors> factors_;
 };
 
