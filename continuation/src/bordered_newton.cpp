@@ -92,10 +92,13 @@ bool StoppingRule::last(double length, double residual, double state_size, bool 
   constexpr double still_falls = 0.3;
   const bool falls = taken_ > 0 && residual <= still_falls * previous_residual_;
   // Some sums round to more.
-  constexpr double larger_sums = 1e-2;
-  const bool stuck = taken_ > 0 && !falls && residual <= larger_sums * allowed && guess_ == Guess::near;
+  constexpr double larger_sums = 0.1;
+  const auto all_noise = [&] {
+    return taken_ > 0 && length <= visible && residual <= larger_sums * allowed && guess_ == Guess::near &&
+           is_noise(residual);
+  };
   const bool exhausted =
-      fresh && length <= visible && (residual <= rounded_residual * allowed || (stuck && is_noise(residual)));
+      fresh && length <= visible && (residual <= rounded_residual * allowed || (!falls && all_noise()));
   bool stagnant = false;
   // A far guess may be improved by corrections of any size at first.
   constexpr int at_first = 5;
@@ -107,7 +110,7 @@ bool StoppingRule::last(double length, double residual, double state_size, bool 
     // converges: F tells.
     constexpr double falling = 0.1;
     if (guess_ == Guess::near && contraction(length) > 1.0 && length > 10.0 * rounding && !exhausted &&
-        residual > falling * previous_residual_)
+        residual > falling * previous_residual_ && !all_noise())
       throw std::runtime_error("Newton's corrections grow");
     stagnant = contraction(length) > no_longer_shrinks;
   }
