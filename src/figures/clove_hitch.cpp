@@ -39,8 +39,8 @@ std::vector<PlannedRun> knot_runs() {
                       false,
                       true});
     };
-    // Above, several lines at once change: the runs would end there after a minute.
-    const double highest = thickness.ratio < 2.0 ? 1.2 : thickness.ratio < 4.0 ? 3.0 : 5.0;
+    // Above, several lines at once change: those of a thick rod take minutes.
+    const double highest = thickness.ratio < 2.0 ? 1.2 : thickness.ratio < 4.0 ? 10.0 : 5.0;
     plan(clove_hitch_down_run(thickness), 0.1);
     plan(clove_hitch_up_run(thickness), highest);
   }
@@ -146,11 +146,11 @@ std::vector<Drawn> one_turns(const Study& study) {
   return out;
 }
 
-constexpr double compared[] = {0.3, 0.5, 1.0, 2.0, 5.0};
+constexpr double compared[] = {0.3, 0.5, 1.0, 2.0, 5.0, 10.0};
 
-/// dlog R_tot/dlog T of the states computed beside a tension.
-std::string slopes(const Study& study) {
-  std::string text;
+/// dlog R_tot/dlog T of the states computed beside a tension, to `slopes_file`, too.
+std::string slopes(const Study& study, const Canvas& canvas) {
+  std::string text, data = "# R/r | T | dlog R_tot/dlog T | its error\n";
   for (const Thickness& thickness : thicknesses) {
     if (thickness.colour == nullptr) continue;
     for (const double tension : compared) {
@@ -158,10 +158,12 @@ std::string slopes(const Study& study) {
           study.at(tension > 1.0 ? clove_hitch_up_run(thickness) : clove_hitch_down_run(thickness));
       if (tension > 1.0 && tension > run.run.rows.back().T) continue;
       const StudyRun::LogSlope slope = run.log_slope_with_error(tension);
-      text += fmt::format("{}R/r = {}, T = {}: {:.4f} ± {:.1g}", text.empty() ? "" : "; ", thickness.name,
+      text += fmt::format("{}R/r = {}, T = {}: {:.6f} ± {:.1g}", text.empty() ? "" : "; ", thickness.name,
                           tension, slope.value, slope.error);
+      data += output::data_line({thickness.ratio, tension, slope.value, slope.error});
     }
   }
+  output::replace_file(canvas.folder / "clove-hitch-slopes.dat", std::string_view(data));
   return text;
 }
 
@@ -182,7 +184,8 @@ std::string beside(const Study& study, const std::vector<Drawn>& list) {
   return text;
 }
 
-std::vector<Statement> hitch_statements(const Study& study, const std::vector<Drawn>& list) {
+std::vector<Statement> hitch_statements(const Study& study, const std::vector<Drawn>& list,
+                                        const Canvas& canvas) {
   const auto [text, worst] = collapse(list);
   constexpr double collapsed = 10.0;  // [%] what can still be called one curve on logarithmic axes
   return {
@@ -196,8 +199,9 @@ std::vector<Statement> hitch_statements(const Study& study, const std::vector<Dr
        "R_tot of the hitch over that of the 4π and of the 2π capstan of the same thickness: " +
            beside(study, list),
        Verdict::remark, ""},
-      {"superlinear at low tension", "local slope dlog R_tot/dlog T of the hitch: " + slopes(study),
-       Verdict::agrees, "the error is that of a difference of states computed beside the tension"}};
+      {"superlinear at low tension", "local slope dlog R_tot/dlog T of the hitch: " + slopes(study, canvas),
+       Verdict::agrees,
+       "the error is that of differences over two steps, of states computed beside the tension"}};
 }
 
 }  // namespace
@@ -230,7 +234,7 @@ Figure clove_hitch(const Study& study, const Canvas& canvas) {
       "F0/μ = R_tot of frictionless equilibria; rods touch themselves. A curve ends where the contacts of "
       "strands change in a way that could not be followed. Numbers at a tension are interpolated between "
       "computed states, but for the slopes.",
-      names, hitch_statements(study, list)};
+      names, hitch_statements(study, list, canvas)};
 }
 
 }  // namespace windlass::figures

@@ -79,7 +79,7 @@ bool Opinion::agrees() const {
 }
 
 OpinionStates default_states(const scene::Scene& scene) {
-  if (scene.knot.tied()) return {{0.2, 0.3, 0.5, 0.8, 1.0}, {1.0 / 2.0, 2.0 / 7.0, 1.0 / 6.0}};
+  if (scene.knot.tied()) return {{0.2, 0.3, 0.5, 0.8, 1.0, 1.5, 2.0, 3.0}, {1.0 / 2.0, 2.0 / 7.0, 1.0 / 6.0}};
   OpinionStates out{{1.0, 1.5, 2.0, 4.0, 8.0}, {1.0 / 2.0, 2.0 / 7.0, 1.0 / 6.0}};
   if (scene.load.angle < 3.0 * M_PI) out.tensions.push_back(12.0);
   return out;
