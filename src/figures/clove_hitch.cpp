@@ -120,7 +120,7 @@ std::string strengths(const std::string& columns, bool titles) {
 std::pair<std::string, double> collapse(const std::vector<Drawn>& list) {
   std::string text;
   double worst = 0.0;
-  for (const double tension : {0.1, 0.2, 0.3, 0.5, 0.8, 1.0, 2.0, 2.8}) {
+  for (const double tension : {0.1, 0.2, 0.3, 0.5, 0.8, 1.0, 2.0, 2.8, 5.0}) {
     std::vector<Drawn> known;
     std::string without;
     for (const Drawn& one : list)

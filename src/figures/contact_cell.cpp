@@ -12,14 +12,49 @@
 
 namespace windlass::figures {
 
+namespace {
+
+bool is_line(const equilibrium::Solution& state, std::size_t arc) {
+  return arc < state.arcs.size() && state.arcs[arc].kind == equilibrium::ArcKind::line;
+}
+
+}  // namespace
+
 int lines_of(const equilibrium::Solution& state) {
-  return static_cast<int>(
-      std::ranges::count(state.arcs, equilibrium::ArcKind::line, &equilibrium::ArcRecord::kind));
+  int lines = 0;  // one that strands press on is several arcs
+  for (std::size_t k = 0; k < state.arcs.size(); ++k)
+    lines += is_line(state, k) && (k == 0 || !is_line(state, k - 1));
+  return lines;
 }
 
 int touches_of(const equilibrium::Solution& state) {
-  return static_cast<int>(
-      std::ranges::count(state.joints, equilibrium::JointKind::touch, &equilibrium::JointRecord::kind));
+  int touches = 0;
+  for (std::size_t k = 0; k < state.joints.size(); ++k)
+    touches += state.joints[k].kind == equilibrium::JointKind::touch && !is_line(state, k) &&
+               (k == 0 || !is_line(state, k - 1));
+  return touches;
+}
+
+int strand_contacts_of(const equilibrium::Solution& state) {
+  std::vector<const equilibrium::JointRecord*> touches;  // each once, along the rod
+  for (std::size_t k = 0; k < state.joints.size(); ++k)
+    if (state.joints[k].partner >= static_cast<int>(k)) touches.push_back(&state.joints[k]);
+  const auto other = [&](const equilibrium::JointRecord& joint) {
+    return state.joints.at(static_cast<std::size_t>(joint.partner)).s;
+  };
+  constexpr double next =
+      0.1;  // [ρ] touches that stand for a line are nearer to each other along both strands
+  std::vector<const equilibrium::JointRecord*> ends;  // the last touch of each contact so far
+  for (const auto* touch : touches) {
+    const auto of = std::ranges::find_if(ends, [&](const auto* end) {
+      return std::abs(touch->s - end->s) < next && std::abs(other(*touch) - other(*end)) < next;
+    });
+    if (of == ends.end())
+      ends.push_back(touch);
+    else
+      *of = touch;
+  }
+  return static_cast<int>(ends.size());
 }
 
 namespace {
@@ -87,11 +122,10 @@ std::vector<std::optional<ContactCell>> knot_cells(const Study& study, const Can
 
 std::string contact_heading(const ContactCell& cell) {
   constexpr double degrees = 180.0 / M_PI, flat = 1e-7;
-  const int strands = static_cast<int>(std::ranges::count_if(
-      cell.state.joints, [](const equilibrium::JointRecord& joint) { return joint.partner >= 0; }));
+  const int strands = strand_contacts_of(cell.state);
   std::string words = strands == 0 ? cell.state.topology
-                                   : fmt::format("{} lines, {} touches, {} of strands", lines_of(cell.state),
-                                                 touches_of(cell.state), strands / 2);
+                                   : fmt::format("{} lines, {} touches, {} contacts of strands",
+                                                 lines_of(cell.state), touches_of(cell.state), strands);
   words += cell.state.z_span > flat ? fmt::format(",  helical, tilt {:.0f}°", cell.state.tilt * degrees)
                                     : ",  flat";
   return fmt::format("  set label 51 '{}' at graph 0.5, graph 1.06 center font ',9'\n", words);

@@ -30,9 +30,11 @@ std::vector<ContactCell> contact_cells(const Study& study, const Canvas& canvas)
 /// The clove hitch at the same tensions; nullopt above those that its runs reach.
 std::vector<std::optional<ContactCell>> knot_cells(const Study& study, const Canvas& canvas);
 
-/// On the cylinder.
+/// On the cylinder; a line that strands press on counts once, and what it carries there is no touch.
 int lines_of(const equilibrium::Solution& state);
 int touches_of(const equilibrium::Solution& state);
+/// Places where strands touch each other, a line counts once.
+int strand_contacts_of(const equilibrium::Solution& state);
 
 /// Names of contact and shape above a panel.
 std::string contact_heading(const ContactCell& cell);
