@@ -99,7 +99,20 @@ BOOST_AUTO_TEST_CASE(every_figure_is_made_with_data_script_and_statements) {
   };
   BOOST_TEST(said("clove-hitch", "% at T = 0.5"));
   BOOST_TEST(said("clove-hitch", "R/r = 2.5, T = 2: "));
+  BOOST_TEST(said("clove-hitch", "R/r = 2.5, T = 10: "));
   BOOST_TEST(said("pressure-map", "at T = 0.9 on the cylinder 2 lines"));
+  BOOST_TEST(!contains(summary["statements"]["pressure-map"].dump(), "not reached"));  // T = 7 neither
+  // Slopes fall to 1 from T = 1/2 on, each known to better than what it falls by.
+  std::istringstream slopes(slurp(figs / "clove-hitch-slopes.dat"));
+  std::getline(slopes, heading);
+  double slope_before = 0.0;
+  for (double ratio, tension, slope, error; slopes >> ratio >> tension >> slope >> error;) {
+    BOOST_TEST(error < 1e-4);
+    if (tension > 0.5) BOOST_TEST(slope < slope_before - error);
+    BOOST_TEST(slope > 1.0);
+    slope_before = slope;
+  }
+  BOOST_TEST(slope_before > 0.0);
   BOOST_TEST(contains(slurp(figs / "pressure-clove-hitch-0.3.dat"), "f between strands"));
   // Sliding through a rod on a plate: the verdict is at 1e-10 and index 0 at five angles; the fold is that of an
   // independent step size (4 digits beyond what is drawn), T = 1/2 that of PHYSICS.

@@ -44,6 +44,8 @@ BOOST_AUTO_TEST_CASE(it_is_for_thick_rods_with_free_ends) {
   BOOST_TEST(precision::default_states(scene).tensions.size() == 6u);
   scene.load.angle = 4.0 * M_PI;
   BOOST_TEST(precision::default_states(scene).tensions.size() == 5u);
+  scene.knot.kind = scene::KnotKind::clove_hitch;
+  BOOST_TEST(precision::default_states(scene).tensions.size() >= 8u);  // at each of three ratios of radii
   scene.ends.kind = scene::EndKind::clamped;
   BOOST_TEST(!precision::has_second_opinion(scene));
   scene = test::thick_coil_scene();
