@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "entry.hpp"
+#include "friction_couple.hpp"
 #include "opened_entry.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/equilibrium/opening.hpp"
@@ -237,7 +238,13 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
   const chain::Profile shape = profile(x, p);
   const ContactEvent event = contact_events(shape, topology_).at(which);
   std::optional<continuation::Transition> first;
+  const bool couple = loads(p).arm != 0.0;
+  std::string beyond;  // contacts on which friction has no moment yet
   for (const Successor& next : successors(event, shape, topology_, joint_places(x, p, shape))) {
+    if (couple && !carries_couple(next.topology)) {
+      beyond = next.topology.text();
+      continue;
+    }
     continuation::Transition transition;
     transition.before = topology_.text();
     transition.after = next.topology.text();
@@ -246,6 +253,10 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
     if (next.nothing_left && !rod_.strut) {  // a free rod goes on without contact
       transition.after = "no contact";
       return transition;  // null problem: the branch ends here
+    }
+    if (next.at_rim) {
+      transition.after = "contact with the plate's outer edge";
+      return transition;
     }
     if (next.at_end) {
       transition.after = "contact at the rod's end";
@@ -277,6 +288,10 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
     transition.state = found->x;
     if (!event.redrawn && (found->p != p || transition.precision >= 0.0)) transition.p = found->p;
     return transition;
+  }
+  if (!first && !beyond.empty()) {  // null problem: the branch ends here
+    first.emplace();
+    first->before = topology_.text(), first->after = beyond;
   }
   return first;
 }
