@@ -256,7 +256,7 @@ std::optional<Started> crossing_on_plate(const scene::Scene& scene, const std::v
 
 Started coil_on_plate(const scene::Scene& scene, const std::vector<std::string>& keys) {
   if (scene.friction_arm() > 0.0)
-    throw NoEquilibrium("a flat coil is none: the moment of the friction twists its tails (" +
+    throw NoEquilibrium("there is no flat coil: the moment of the friction twists its tails (" +
                         couple_not_carried() + ")");
   if (!(scene.strand_radius() > 0.0)) return flat_on_plate(scene, keys);
   std::string failure;

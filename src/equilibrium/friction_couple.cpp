@@ -10,17 +10,14 @@ namespace windlass::equilibrium {
 using chain::Stretch;
 
 bool carries_couple(const Topology& topology) {
-  for (int i = 0; i < static_cast<int>(topology.stretches.size()); ++i) {
-    if (topology.lies_flat(i) || topology.touches_flat(i)) return false;
-    if (topology.stretches[i] == Stretch::line && topology.obstacle(i) == 0) return false;
-  }
+  for (int i = 0; i < static_cast<int>(topology.stretches.size()); ++i)
+    if (topology.stretches[i] == Stretch::line || topology.touches_flat(i)) return false;
   return topology.couplings().empty();
 }
 
 std::string couple_not_carried() {
-  return "cylinder.friction_couple: is built for isolated touches of the cylinder, not for lines on it, nor "
-         "for rods that "
-         "lie flat on a plate; false leaves the moment of the friction out";
+  return "cylinder.friction_couple: is built for isolated touches, not for rods that lie along a line on the "
+         "cylinder or on the plate; false leaves the moment of the friction out";
 }
 
 namespace {
@@ -49,7 +46,7 @@ std::vector<Started> dragged_with_couple(const scene::Scene& scene, const std::v
   without.motion.friction_couple = false;
   std::vector<Started> out;
   std::string lost;
-  int lines = 0, all = 0;
+  std::size_t lines = 0, all = 0;
   for (const Started& state : dragged_states(without, {"cylinder.friction"}, searched)) {
     ++all;
     std::string failure;
@@ -60,11 +57,15 @@ std::vector<Started> dragged_with_couple(const scene::Scene& scene, const std::v
     else
       lost += "; one state was not: " + failure;
   }
-  searched +=
-      fmt::format("; of the {} found so {} followed to the moment of the friction at rod.radius = {:.6g}",
-                  all, out.size() == 1 ? "1 was" : fmt::format("{} were", out.size()), scene.rod_radius);
+  const auto count = [](std::size_t number, const char* one, const char* more) {
+    return fmt::format("{} {}", number, number == 1 ? one : more);
+  };
+  if (all > 0)
+    searched +=
+        fmt::format("; of the {} found so {} followed to the moment of the friction at rod.radius = {:.6g}",
+                    all, count(out.size(), "was", "were"), scene.rod_radius);
   if (lines > 0)
-    searched += fmt::format("; {} lie on the cylinder along lines ({})", lines, couple_not_carried());
+    searched += fmt::format("; {} along lines ({})", count(lines, "lies", "lie"), couple_not_carried());
   searched += lost;
   return out;
 }

@@ -8,8 +8,8 @@
 /// Friction with a moment about the centre line, `rod.radius` away from where it acts (PHYSICS, "The moment of the friction").
 namespace windlass::equilibrium {
 
-/// Is the moment honoured on these contacts? At isolated touches of the cylinder, not along lines, and not where the rod is
-/// held flat on a plate: twisted, it does not lie there.
+/// Is the moment honoured on these contacts? At isolated touches, not along lines, and not where cylinder and plate hold the
+/// rod flat at one place: twisted, it does not lie there.
 bool carries_couple(const Topology& topology);
 
 /// What is said of a scene whose states would need it elsewhere.

@@ -103,6 +103,12 @@ RodProblem::RodProblem(scene::Scene scene, bool spatial, Topology topology,
   rebuild();
 }
 
+bool RodProblem::admits(const Topology& topology) const {
+  const bool couple =
+      base_.arm != 0.0 || std::find(fields_.begin(), fields_.end(), &Loads::arm) != fields_.end();
+  return !couple || (spatial_ && carries_couple(topology));
+}
+
 void RodProblem::rebuild() {
   rod_ = rod_of(scene_, spatial_);
   const auto varies = [&](const char* key) {
@@ -113,9 +119,7 @@ void RodProblem::rebuild() {
   if (varies("rod.weight_y")) rod_.weighs[1] = true;
   if (varies("rod.weight_z")) rod_.weighs[2] = true;
   base_ = loads_of(scene_);
-  const bool couple =
-      base_.arm > 0.0 || std::find(fields_.begin(), fields_.end(), &Loads::arm) != fields_.end();
-  if (couple && !(spatial_ && carries_couple(topology_))) throw NoEquilibrium(couple_not_carried());
+  if (!admits(topology_)) throw NoEquilibrium(couple_not_carried());
   chain_ = chain::build_chain(rod_, topology_, meshes_);
   chain_->let_slide(slides_);
   finer_.reset();

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "entry.hpp"
-#include "friction_couple.hpp"
 #include "opened_entry.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/equilibrium/opening.hpp"
@@ -238,10 +237,9 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
   const chain::Profile shape = profile(x, p);
   const ContactEvent event = contact_events(shape, topology_).at(which);
   std::optional<continuation::Transition> first;
-  const bool couple = loads(p).arm != 0.0;
   std::string beyond;  // contacts on which friction has no moment yet
   for (const Successor& next : successors(event, shape, topology_, joint_places(x, p, shape))) {
-    if (couple && !carries_couple(next.topology)) {
+    if (!admits(next.topology)) {
       beyond = next.topology.text();
       continue;
     }
@@ -289,11 +287,10 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
     if (!event.redrawn && (found->p != p || transition.precision >= 0.0)) transition.p = found->p;
     return transition;
   }
-  if (!first && !beyond.empty()) {  // null problem: the branch ends here
-    first.emplace();
-    first->before = topology_.text(), first->after = beyond;
-  }
-  return first;
+  if (beyond.empty()) return first;
+  continuation::Transition end;  // null problem: the branch ends here
+  end.before = topology_.text(), end.after = beyond + " (cylinder.friction_couple is not built for lines)";
+  return end;
 }
 
 }  // namespace windlass::equilibrium
