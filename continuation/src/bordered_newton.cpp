@@ -92,10 +92,8 @@ bool StoppingRule::last(double length, double residual, double state_size, bool 
   constexpr double still_falls = 0.3;
   const bool falls = taken_ > 0 && residual <= still_falls * previous_residual_;
   // Some sums round to more.
-  constexpr double larger_sums = 0.1;
   const auto all_noise = [&] {
-    return taken_ > 0 && length <= visible && residual <= larger_sums * allowed && guess_ == Guess::near &&
-           is_noise(residual);
+    return taken_ > 0 && length <= visible && residual <= allowed && is_noise(residual);
   };
   const bool exhausted =
       fresh && length <= visible && (residual <= rounded_residual * allowed || (!falls && all_noise()));

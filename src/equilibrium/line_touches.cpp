@@ -91,11 +91,21 @@ class Course {
   double least_ = 0.0;
 };
 
-/// Places between two, `begin` and `end` not among them. @param presses  at begin, at end: another strand presses there, by a point force
-/// that goes on to this line
-std::vector<double> laid_out(const Course& course, double begin, double end, std::array<bool, 2> presses,
+/// What is at the two ends of a part of a line.
+struct PartEnds {
+  std::array<bool, 2> presses;  ///< a point force of something else, which goes on to this line
+  std::array<bool, 2>
+      touched;  ///< a touch of this line: the next one is a whole distance away, not half of one
+};
+
+/// Places between two, `begin` and `end` not among them.
+std::vector<double> laid_out(const Course& course, double begin, double end, const PartEnds& ends,
                              double stiffness, double finer, double& needed) {
-  constexpr double quarter = 0.25, denser = 1.5;
+  // A force that no touch takes up where it acts spreads over those beside it, the farther the more it tilts the strands.
+  constexpr double quarter = 0.25, denser = 1.5, densest = 5.0;
+  const auto beside = [&](int end) {
+    return !ends.presses[end] ? 0.0 : ends.touched[end] ? denser : densest;
+  };
   constexpr int samples = 200;
   std::vector<double> sum{0.0};
   const double step = (end - begin) / samples;
@@ -104,16 +114,21 @@ std::vector<double> laid_out(const Course& course, double begin, double end, std
     const double both = 1.0 + std::pow(std::abs(course.rate(s)), 3);  // each gives way over its own span
     const double most = std::pow(384.0 * stiffness * quarter * carried_between_strands / (p * both), 0.25);
     double density = 1.0 / most;
-    if (presses[0]) density += denser / most * std::exp(-0.5 * (s - begin) / most);
-    if (presses[1]) density += denser / most * std::exp(-0.5 * (end - s) / most);
+    density += beside(0) / most * std::exp(-0.5 * (s - begin) / most);
+    density += beside(1) / most * std::exp(-0.5 * (end - s) / most);
     sum.push_back(sum.back() + (p > 0.0 ? step * density : 1.0 / (samples + 1)));
   }
   needed += finer * sum.back();
-  const int links = std::max(1, static_cast<int>(std::ceil(finer * sum.back())));
+  // Beside an edge alone the distance from touch to touch across it is to be no longer than others.
+  constexpr double enough = 0.5;
+  const bool divides = finer * sum.back() > enough;
+  const double before = divides && !ends.touched[0] ? 0.5 : 0.0,
+               behind = divides && !ends.touched[1] ? 0.5 : 0.0;
+  const int links = std::max(1, static_cast<int>(std::ceil(finer * sum.back() + before + behind)));
   std::vector<double> out;
   int k = 0;
   for (int i = 1; i < links; ++i) {
-    const double goal = sum.back() * i / links;
+    const double goal = sum.back() * (i - before) / (links - before - behind);
     while (sum[k + 1] < goal) ++k;
     out.push_back(begin + step * (k + (goal - sum[k]) / (sum[k + 1] - sum[k])));
   }
@@ -202,8 +217,7 @@ class Layer {
       const Course course = course_of(line);
       double needed = 0.0;
       for (std::size_t k = 0; k + 1 < line.s.size(); ++k) {
-        if (k > 0 && strand_presses(strip_, line.s[k]) && apart_from_ends(line, line.s[k]))
-          add(line, course, line.s[k], true);
+        if (k > 0 && has_touch(line, line.s[k])) add(line, course, line.s[k], true);
         const bool shared = between_.contains({line.s[k], line.s[k + 1]});
         for (const double s : places(line, k, needed)) add(line, course, s, shared);
       }
@@ -219,6 +233,11 @@ class Layer {
   }
 
  private:
+  /// Has a line one of its touches at a joint inside it?
+  bool has_touch(const Divided& line, double s) const {
+    return strand_presses(strip_, s) && apart_from_ends(line, s);
+  }
+
   bool apart_from_ends(const Divided& line, double s) const {
     const double least = press_apart * profile_.unit_length;
     const bool before = line.own_image && !line.by_first,
@@ -239,9 +258,12 @@ class Layer {
         if (std::pair(other.s[i], other.s[i + 1]) != bounds) continue;
         const bool fresh = strip_.parts[strip_.part_at(0.5 * (bounds.first + bounds.second))].fresh;
         if (fresh && other.s.size() == 2) continue;  // a line that has no length yet
-        const std::array presses{i > 0, i + 2 < other.s.size()};
+        const std::array inner{i > 0, i + 2 < other.s.size()};
+        const PartEnds ends{
+            inner,
+            {!inner[0] || has_touch(other, bounds.first), !inner[1] || has_touch(other, bounds.second)}};
         double links = 0.0;
-        const std::vector<double> own = laid_out(course_of(other), bounds.first, bounds.second, presses,
+        const std::vector<double> own = laid_out(course_of(other), bounds.first, bounds.second, ends,
                                                  profile_.material.bending_stiffness, finer_, links);
         if (&other == &line) needed += links;
         if (own.size() > most.size()) most = own;
