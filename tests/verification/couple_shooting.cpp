@@ -150,6 +150,8 @@ VectorXd start(const equilibrium::Solution& guess, Oracle& oracle) {
 Dragged shot_from_touches(const equilibrium::Solution& guess, const scene::Scene& scene) {
   Oracle oracle{scene, {}};
   VectorXd x = start(guess, oracle);
+  constexpr double off = 1e-4;  // so that it has to find the state itself
+  x += off * VectorXd::LinSpaced(x.size(), -1.0, 1.0);
   for (int k = 0; k < 20; ++k) {
     const VectorXd f = oracle.residual(x);
     Eigen::MatrixXd j(f.size(), x.size());
