@@ -235,13 +235,12 @@ class Layer {
  private:
   /// Has a line one of its touches at a joint inside it?
   bool has_touch(const Divided& line, double s) const {
-    return strand_presses(strip_, s) && apart_from_ends(line, s);
+    return strand_presses(strip_, s) && inside(line, s, press_apart * profile_.unit_length);
   }
 
-  bool apart_from_ends(const Divided& line, double s) const {
-    const double least = press_apart * profile_.unit_length;
-    const bool before = line.own_image && !line.by_first,
-               behind = line.own_image && line.by_first;  // its middle is no end
+  /// Is a place of a line farther from its ends than that? The middle of a line with its own image is none.
+  bool inside(const Divided& line, double s, double least) const {
+    const bool before = line.own_image && !line.by_first, behind = line.own_image && line.by_first;
     return (before || s - line.s.front() > least) && (behind || line.s.back() - s > least);
   }
 
@@ -259,9 +258,10 @@ class Layer {
         const bool fresh = strip_.parts[strip_.part_at(0.5 * (bounds.first + bounds.second))].fresh;
         if (fresh && other.s.size() == 2) continue;  // a line that has no length yet
         const std::array inner{i > 0, i + 2 < other.s.size()};
-        const PartEnds ends{
-            inner,
-            {!inner[0] || has_touch(other, bounds.first), !inner[1] || has_touch(other, bounds.second)}};
+        const auto closed = [&](double at) {  // close to an end the line opens where touches are laid densely
+          return has_touch(other, at) || !inside(other, at, 2.0 * beside_end * profile_.unit_length);
+        };
+        const PartEnds ends{inner, {!inner[0] || closed(bounds.first), !inner[1] || closed(bounds.second)}};
         double links = 0.0;
         const std::vector<double> own = laid_out(course_of(other), bounds.first, bounds.second, ends,
                                                  profile_.material.bending_stiffness, finer_, links);
