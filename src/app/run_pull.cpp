@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -199,6 +200,12 @@ int run_pull(const PullRequest& request) {
       scene.ends.right_kind() != scene::EndKind::moment_free)
     throw scene::SceneError(scene.name +
                             ": ends.kind: a pull needs \"moment_free\": the discrete rod's ends turn");
+  if (scene.friction_arm() > 0.0)
+    throw scene::SceneError(
+        scene.name + ": cylinder.friction_couple: a pull needs false: its friction acts at the centre line");
+  if (scene.plate && !std::isinf(scene.plate->outer_radius))
+    throw scene::SceneError(scene.name +
+                            ": plate.outer_radius: a pull needs \"inf\": its plate has no outer edge");
   const std::vector<double> meshes = meshes_of(request, scene::natural(scene).load.tension);
   petsc::ensure_session();
   PullResult result;

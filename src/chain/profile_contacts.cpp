@@ -35,7 +35,7 @@ Vector3d jump(const std::vector<Piece>& pieces, int joint) {
 
 /// Contacts with an obstacle.
 Contact obstacle_contact(const Chain& chain, const Topology& topology, const rod::Material& material,
-                         const VectorXd& x, int j, const std::vector<Piece>& pieces) {
+                         const VectorXd& x, const Loads& loads, int j, const std::vector<Piece>& pieces) {
   Contact c;
   const Joint& joint = chain.joint(j);
   const obstacle::Chart here = joint.chart(chain.coordinates(x, j));
@@ -49,6 +49,13 @@ Contact obstacle_contact(const Chain& chain, const Topology& topology, const rod
   const Vector3d t = rod::directors(after.q.col(0)).col(2);
   const Eigen::Vector2d along = here.tangents.transpose() * t;
   c.gap_curvature = curvature(material, after, 0).dot(c.normal) + along.dot(here.bend * along);
+  if (loads.arm != 0.0 &&
+      j > 0) {  // friction's moment bends the rod: the curvature jumps, and the lesser gives way
+    const Piece& before = pieces[j - 1];
+    const double ahead =
+        curvature(material, before, before.s.size() - 1).dot(c.normal) + along.dot(here.bend * along);
+    c.gap_curvature = std::min(c.gap_curvature, ahead);
+  }
   return c;
 }
 
@@ -130,7 +137,7 @@ void add_contacts(const Chain& chain, const Topology& topology, const VectorXd& 
   for (int j = 0; j < chain.joint_count(); ++j) {
     if (!chain.is_contact(j)) continue;
     const int coupling = chain.coupling_of(j);
-    Contact c = coupling < 0 ? obstacle_contact(chain, topology, out.material, x, j, out.pieces)
+    Contact c = coupling < 0 ? obstacle_contact(chain, topology, out.material, x, loads, j, out.pieces)
                              : strand_contact(chain, topology, out.material, x, j, coupling, out.pieces);
     c.joint = j;
     c.s = chain.arclength(x, loads, j);

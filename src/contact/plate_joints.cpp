@@ -140,7 +140,11 @@ void FlatTouch::curvature(Side side, const double* w, const Loads& loads, const 
   SmallMatrix all = SmallMatrix::Zero(touch_.tangent(), touch_.tangent());
   touch_.curvature(side, as_touch(w).data(), loads, g_q, f, all);
   out += own.transpose() * all * own;
-  out(1, 2) += 0.5 * Eigen::Vector3d(g_q).dot(Eigen::Vector3d(-std::sin(w[2]), -std::cos(w[2]), 0.0));
+  Eigen::Vector3d turning = g_q;
+  if (loads.arm != 0.0)
+    turning +=
+        touch_.attach(side, as_touch(w).data(), loads).test().rightCols<3>().transpose() * Eigen::Vector3d(f);
+  out(1, 2) += 0.5 * turning.dot(Eigen::Vector3d(-std::sin(w[2]), -std::cos(w[2]), 0.0));
 }
 
 Joint::Location FlatTouch::location(const double* w, const SmallVector& g_left,

@@ -31,7 +31,32 @@ TouchSlip slip_at(const obstacle::Chart& here, const Eigen::Matrix3d& directors,
   out.by_w.leftCols<2>() = here.second(d);
   out.by_w.rightCols<3>() = here.tangents.transpose() * (Eigen::Matrix3d::Identity() - d * d.transpose()) *
                             (-travel / size) * turned;
+  out.direction = d;
+  out.direction_by_v = (Eigen::Matrix3d::Identity() - d * d.transpose()) * (-travel / size) * turned;
   return out;
+}
+
+void add_couple(const obstacle::Chart& here, double friction, double arm, const Eigen::Matrix3d& directors,
+                const TouchSlip& slip, SmallMatrix& tested) {
+  const Vector3d axis = here.normal.cross(slip.direction);
+  tested.rightCols<3>() += 2.0 * friction * arm * here.normal * (directors.transpose() * axis).transpose();
+}
+
+void add_couple_slope(const obstacle::Chart& here, double friction, double arm,
+                      const Eigen::Matrix3d& directors, const TouchSlip& slip, const SmallVector& f,
+                      SmallMatrix& out) {
+  const Vector3d force = f, axis = here.normal.cross(slip.direction), turned = directors.transpose() * axis;
+  const Eigen::Matrix<double, 3, 2> normal_by_u = here.tangents * here.bend;
+  const double size = 2.0 * friction * arm, pressed = here.normal.dot(force);
+  out.bottomLeftCorner<3, 2>() += size * turned * here.normal_slope(force).transpose();
+  for (int i = 0; i < 2; ++i)
+    out.block<3, 1>(2, i) +=
+        size * pressed * directors.transpose() * normal_by_u.col(i).cross(slip.direction);
+  for (int i = 0; i < 3; ++i) {  // the directors turn with the increments, too
+    out.block<3, 1>(2, 2 + i) +=
+        size * pressed * directors.transpose() * here.normal.cross(slip.direction_by_v.col(i));
+    out.block<3, 1>(2, 2 + i) -= 2.0 * size * pressed * Vector3d(Vector3d::Unit(i).cross(turned));
+  }
 }
 
 }  // namespace windlass::contact::spatial

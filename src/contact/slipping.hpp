@@ -21,7 +21,20 @@ void add_slipping(const obstacle::Chart& here, double friction, const Eigen::Vec
 struct TouchSlip {
   Eigen::Vector2d d;
   SlipSlope by_w;
+  Eigen::Vector3d direction;       ///< d in the world
+  Eigen::Matrix3d direction_by_v;  ///< with the frame's increments
 };
 TouchSlip slip_at(const obstacle::Chart& here, const Eigen::Matrix3d& directors, double travel);
+
+/// Friction that acts at the rod's surface, `arm` from the centre line: its moment −arm mu f N × d does work on turns φ of
+/// the section. In the columns of `tested` that turn the touch (the last three, half the angle in the body frame) that is
+/// arm mu (N × d)·φ times N.
+void add_couple(const obstacle::Chart& here, double friction, double arm, const Eigen::Matrix3d& directors,
+                const TouchSlip& slip, SmallMatrix& tested);
+
+/// Derivatives of those columns' work on a force f.
+void add_couple_slope(const obstacle::Chart& here, double friction, double arm,
+                      const Eigen::Matrix3d& directors, const TouchSlip& slip, const SmallVector& f,
+                      SmallMatrix& out);
 
 }  // namespace windlass::contact::spatial

@@ -56,9 +56,11 @@ Attachment Touch::attach(Side, const double* w, const Loads& loads) const {
   at.dq.rightCols(3).setIdentity();
   at.x = here.r;
   at.dx.leftCols<2>() = here.tangents;
-  if (loads.friction > 0.0 && surface_->slips())
-    at.tested =
-        slipping(at.dx, here, loads.friction, slip_at(here, rod::directors(frame_at(w + 2)), loads.travel).d);
+  if (!(loads.friction > 0.0) || !surface_->slips()) return at;
+  const Eigen::Matrix3d directors = rod::directors(frame_at(w + 2));
+  const TouchSlip slip = slip_at(here, directors, loads.travel);
+  at.tested = slipping(at.dx, here, loads.friction, slip.d);
+  if (loads.arm != 0.0) add_couple(here, loads.friction, loads.arm, directors, slip, *at.tested);
   return at;
 }
 
@@ -67,8 +69,10 @@ void Touch::curvature(Side, const double* w, const Loads& loads, const SmallVect
   const obstacle::Chart here = chart(w);
   out.topLeftCorner<2, 2>() += here.second(f);
   if (!(loads.friction > 0.0) || !surface_->slips()) return;
-  const TouchSlip slip = slip_at(here, rod::directors(frame_at(w + 2)), loads.travel);
+  const Eigen::Matrix3d directors = rod::directors(frame_at(w + 2));
+  const TouchSlip slip = slip_at(here, directors, loads.travel);
   add_slipping(here, loads.friction, slip.d, slip.by_w, f, out);
+  if (loads.arm != 0.0) add_couple_slope(here, loads.friction, loads.arm, directors, slip, f, out);
 }
 
 Joint::Location Touch::location(const double* w, const SmallVector&, const SmallVector&) const {

@@ -212,6 +212,13 @@ Successor end_of_rod(const Strip& strip) {
   return next;
 }
 
+/// What touches a plate at its outer edge presses on that edge: another contact.
+Successor at_the_rim(const Strip& strip) {
+  Successor next = strip.successor();
+  next.at_rim = true;
+  return next;
+}
+
 /// A line that has buckled off its obstacle: its edges are touches now.
 Successor bowed(int link, Strip strip) {
   strip.parts[link].kind = Stretch::gap;
@@ -331,6 +338,8 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
       return after_graze(event, strip, profile);
     case Kind::buckling:
       return {bowed(event.place, strip)};
+    case Kind::rim:
+      return {at_the_rim(strip)};
     case Kind::reaction:
       return strand_lifts(event.place, strip);
     case Kind::approach:

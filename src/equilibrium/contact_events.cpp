@@ -102,6 +102,11 @@ bool before_flat_tail(const Profile& profile, const Topology& topology, const Co
                             (c.joint < count && lies_flat(profile, topology, c.joint, c.obstacle)));
 }
 
+/// How far a place is inside the outer edge of an obstacle; infinite where it has none.
+double inside_rim(const obstacle::Surface& surface, const Eigen::Vector3d& r) {
+  return surface.outer_radius() - r.head<2>().norm();
+}
+
 /// Least local minimum of the gap to an obstacle inside a free arc. Next to a contact the gap is flat and its samples are
 /// rounding; a minimum must stand out by more than that.
 ContactEvent graze(const Profile& profile, int obstacle, int link, bool starts_at_mid) {
@@ -126,6 +131,8 @@ ContactEvent graze(const Profile& profile, int obstacle, int link, bool starts_a
     constexpr double near = 1e-3;
     if (piece.stride > 1 && least->value < near * profile.unit_length)
       least = on_its_way(profile, piece, surface, least->s);
+    if (least && std::isfinite(surface.outer_radius()) && inside_rim(surface, profile.at(least->s).r) < 0.0)
+      continue;  // beside the plate
     if (least && least->value < event.value) event = at(least->value, least->s);
   }
   for (const Contact& c : profile.contacts) {
@@ -319,8 +326,8 @@ void heed_first_what_vanishes(std::vector<ContactEvent>& events, const Topology&
 }  // namespace
 
 std::string ContactEvent::name() const {
-  static const char* const words[] = {"pressure", "suction",  "length",   "force",   "curvature",
-                                      "graze",    "buckling", "approach", "reaction"};
+  static const char* const words[] = {"pressure", "suction",  "length",   "force",    "curvature",
+                                      "graze",    "buckling", "approach", "reaction", "rim"};
   const std::string name =
       std::string(words[static_cast<int>(kind)]) + " " + std::to_string(named < 0 ? place : named);
   if (kind == Kind::approach)
@@ -364,6 +371,8 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
     events.push_back({Kind::force, c.joint,
                       c.force + (c.coupling < 0 ? 0.0 : carried_pull(profile, strands, c.joint)), c.s});
     events.back().redrawn = strands.inside_line(c.joint);
+    if (c.obstacle >= 0 && std::isfinite(profile.obstacles[c.obstacle].outer_radius()))
+      events.push_back({Kind::rim, c.joint, inside_rim(profile.obstacles[c.obstacle], c.r), c.s});
     // In a plate the reaction is that force itself.
     if (c.reaction && !topology.touches_flat(c.joint)) events.push_back(reaction_event(profile, c));
     // Of a line between strands g'' = 0.

@@ -8,7 +8,9 @@
 
 #include "attempt.hpp"
 #include "entry.hpp"
+#include "friction_couple.hpp"
 #include "harvest.hpp"
+#include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/equilibrium/search.hpp"
 #include "windlass/rod/capstan.hpp"
 
@@ -82,6 +84,13 @@ Layout layout_of(const std::vector<Pressing>& pressing, const contact::Loads& lo
     out.meshes.push_back(first_mesh(out.topology.stretches[i], loads, out.s[i + 1] - out.s[i]));
   out.meshes.front() = reversed(out.meshes.front());  // fine where it leaves the contact
   return out;
+}
+
+/// Does the plate reach as far as it is touched?
+bool within_the_plate(RodProblem& problem, const Vector& x, const Vector& p) {
+  for (const ContactEvent& event : contact_events(problem.profile(x, p), problem.topology()))
+    if (event.kind == ContactEvent::Kind::rim && event.value < 0.0) return false;
+  return true;
 }
 
 double height_of_end(const Piece& tail, bool leftward) { return tail.r(2, leftward ? 0 : tail.s.size() - 1); }
@@ -246,6 +255,9 @@ std::optional<Started> crossing_on_plate(const scene::Scene& scene, const std::v
 }  // namespace
 
 Started coil_on_plate(const scene::Scene& scene, const std::vector<std::string>& keys) {
+  if (scene.friction_arm() > 0.0)
+    throw NoEquilibrium("there is no flat coil: the moment of the friction twists its tails (" +
+                        couple_not_carried() + ")");
   if (!(scene.strand_radius() > 0.0)) return flat_on_plate(scene, keys);
   std::string failure;
   // Thin tails cross on lines where the tension is high, and hang on touches where it is low.
@@ -261,18 +273,21 @@ Started coil_on_plate(const scene::Scene& scene, const std::vector<std::string>&
 
 std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector<std::string>& keys,
                                     std::string& searched) {
+  if (scene.friction_arm() > 0.0) return dragged_with_couple(scene, keys, searched);
   constexpr double flat = 1e-6;  // [ρ]
   // Next to nothing; with more friction the plate holds the tail nearer to the coil, so that short tails need more.
   constexpr double least = 1e-3, next = 2.0, most = 0.1;
   const double goal = scene.dragging_friction();
+  scene::Scene endless = scene;  // with little friction the plate holds the tail far out
+  endless.plate->outer_radius = HUGE_VAL;
   std::vector<Started> out;
-  int followed = 0, points = 0;
+  int followed = 0, points = 0, beyond = 0;
   for (const FoundState& still : search(standing(scene), true, false, {"load.tension"}).states) {
     if (still.fingerprint(2) < flat) continue;
     std::optional<Started> start;
     std::string failure;
     for (double mu = std::min(least, 0.5 * goal); !start && mu < std::min(most, goal); mu *= next)
-      start = under_the_plate(still.at, scene, mu, failure);
+      start = under_the_plate(still.at, endless, mu, failure);
     if (!start) continue;
     ++followed;
     continuation::Options options;
@@ -291,12 +306,18 @@ std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector
       const auto problem =
           std::make_shared<RodProblem>(scene, true, found.problem->topology(), found.problem->meshes(), keys);
       Vector x = found.x;
-      if (problem->polish(x, problem->parameters()) >= 0)
+      if (problem->polish(x, problem->parameters()) < 0) continue;
+      if (within_the_plate(*problem, x, problem->parameters()))
         out.push_back({problem, x, problem->parameters(), 0});
+      else
+        ++beyond;
     }
   }
   searched = fmt::format("{} states without friction dragged to mu = {:.4g} and as far again, {} points",
                          followed, goal, points);
+  if (beyond > 0)
+    searched += fmt::format("; {} would touch the plate beyond plate.outer_radius = {:.6g}", beyond,
+                            scene.plate->outer_radius);
   return out;
 }
 

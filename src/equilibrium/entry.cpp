@@ -86,6 +86,7 @@ bool mend(Entry& at, int most, bool redrawn, int& iterations) {
     pulled |= pulls;
     bool found = false;
     for (Successor& next : all) {
+      if (!at.problem->admits(next.topology)) continue;
       std::sort(next.s.begin(), next.s.end());  // what has changed places
       Entry entry = draft(*at.problem, next, shape, at.p);
       const int used = entry.problem->polish(entry.x, entry.p);

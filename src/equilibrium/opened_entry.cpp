@@ -129,7 +129,8 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, i
       if (now != next.source.end()) all.push_back(static_cast<int>(now - next.source.begin()));
     }
     all.insert(all.end(), next.opened.begin(), next.opened.end());
-    if (all.empty() || next.nothing_left || next.at_end) continue;
+    if (all.empty() || next.nothing_left || next.at_rim || next.at_end) continue;
+    if (!entry.problem->admits(next.topology)) continue;
     if (auto found = open_in_turn(draft(*entry.problem, next, shape, entry.p), all, depth - 1, as_long, p))
       return found;
   }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "dense_samples.hpp"
+#include "friction_couple.hpp"
 #include "windlass/chain/singular_matrix.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/equilibrium/start.hpp"
@@ -22,13 +23,13 @@ namespace {
 using contact::Loads;
 
 /// Parameters that change loads only; all others rebuild the arcs.
-double Loads::*field_of(const std::string& key) {
+double Loads::*field_of(const std::string& key, const scene::Scene& scene) {
   if (key == "load.tension") return &Loads::tension;
   if (key == "load.angle") return &Loads::angle;
   if (key == "load.thrust") return &Loads::thrust;
   if (key == "ends.shortening") return &Loads::shortening;
   if (key == "ends.twist") return &Loads::twist;
-  if (key == "rod.radius") return &Loads::radius;
+  if (key == "rod.radius") return scene.friction_has_couple() ? &Loads::arm : &Loads::radius;
   if (key == "cylinder.friction") return &Loads::friction;
   if (key == "rod.axial_compliance") return &Loads::compliance;
   if (key == "rod.weight_x") return &Loads::weight_x;
@@ -49,6 +50,7 @@ Loads loads_of(const scene::Scene& scene) {
   loads.twist = scene.ends.twist;
   loads.radius = scene.strand_radius();
   loads.friction = scene.dragging_friction();
+  loads.arm = scene.friction_arm();
   loads.compliance = scene.rod.compliance();
   std::tie(loads.weight_x, loads.weight_y, loads.weight_z) = std::tuple_cat(scene.rod.weight);
   return loads;
@@ -97,8 +99,14 @@ RodProblem::RodProblem(scene::Scene scene, bool spatial, Topology topology,
       topology_(std::move(topology)),
       meshes_(std::move(meshes)),
       keys_(std::move(keys)) {
-  for (const std::string& key : keys_) fields_.push_back(field_of(key));
+  for (const std::string& key : keys_) fields_.push_back(field_of(key, scene_));
   rebuild();
+}
+
+bool RodProblem::admits(const Topology& topology) const {
+  const bool couple =
+      base_.arm != 0.0 || std::find(fields_.begin(), fields_.end(), &Loads::arm) != fields_.end();
+  return !couple || (spatial_ && carries_couple(topology));
 }
 
 void RodProblem::rebuild() {
@@ -111,6 +119,7 @@ void RodProblem::rebuild() {
   if (varies("rod.weight_y")) rod_.weighs[1] = true;
   if (varies("rod.weight_z")) rod_.weighs[2] = true;
   base_ = loads_of(scene_);
+  if (!admits(topology_)) throw NoEquilibrium(couple_not_carried());
   chain_ = chain::build_chain(rod_, topology_, meshes_);
   chain_->let_slide(slides_);
   finer_.reset();

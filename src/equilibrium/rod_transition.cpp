@@ -172,6 +172,25 @@ double to_the_end(RodProblem& problem, const Vector& x, const Vector& p, int lin
   return solved ? std::abs(beside(0) - p(0)) : -1.0;
 }
 
+/// How far in p(0) the place where a touch is flat is from where it gives way: nothing on a cylinder, on a plane a little
+/// (`least_curvature`).
+double to_flat(RodProblem& problem, Vector x, Vector p, const chain::Profile& shape,
+               const ContactEvent& event) {
+  const auto touch = std::find_if(shape.contacts.begin(), shape.contacts.end(),
+                                  [&](const chain::Contact& c) { return c.joint == event.place; });
+  if (event.kind != Kind::curvature || touch == shape.contacts.end()) return -1.0;
+  const double step = 1e-5 * std::max(1.0, std::abs(p(0)));
+  p(0) += step;
+  double slope = 0.0;
+  tried([&] {
+    if (problem.polish(x, p) < 0) return false;
+    for (const ContactEvent& other : contact_events(problem.profile(x, p), problem.topology()))
+      if (other.name() == event.name()) slope = (other.value - event.value) / step;
+    return true;
+  });
+  return slope != 0.0 ? std::abs(touch->gap_curvature / slope) : -1.0;
+}
+
 /// The force of the touch between strands that is new in a topology.
 std::string new_touch_force(const Topology& topology) {
   int newest = 0;
@@ -237,7 +256,12 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
   const chain::Profile shape = profile(x, p);
   const ContactEvent event = contact_events(shape, topology_).at(which);
   std::optional<continuation::Transition> first;
+  std::string beyond;  // contacts on which friction has no moment yet
   for (const Successor& next : successors(event, shape, topology_, joint_places(x, p, shape))) {
+    if (!admits(next.topology)) {
+      beyond = next.topology.text();
+      continue;
+    }
     continuation::Transition transition;
     transition.before = topology_.text();
     transition.after = next.topology.text();
@@ -246,6 +270,10 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
     if (next.nothing_left && !rod_.strut) {  // a free rod goes on without contact
       transition.after = "no contact";
       return transition;  // null problem: the branch ends here
+    }
+    if (next.at_rim) {
+      transition.after = "contact with the plate's outer edge";
+      return transition;
     }
     if (next.at_end) {
       transition.after = "contact at the rod's end";
@@ -278,7 +306,11 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
     if (!event.redrawn && (found->p != p || transition.precision >= 0.0)) transition.p = found->p;
     return transition;
   }
-  return first;
+  if (beyond.empty()) return first;
+  continuation::Transition end;  // null problem: the branch ends here
+  end.before = topology_.text(), end.after = beyond + " (cylinder.friction_couple is not built for lines)";
+  end.precision = to_flat(*std::static_pointer_cast<RodProblem>(clone()), x, p, shape, event);
+  return end;
 }
 
 }  // namespace windlass::equilibrium

@@ -4,7 +4,8 @@
 
 namespace windlass::obstacle {
 
-Plane::Plane(const Vector3d& normal, double distance) : normal_(-normal.normalized()), distance_(distance) {
+Plane::Plane(const Vector3d& normal, double distance, double outer_radius)
+    : normal_(-normal.normalized()), distance_(distance), outer_radius_(outer_radius) {
   constexpr double nearly_along = 1e-6;  // e_x then has no projection to speak of
   const auto projected = [&](const Vector3d& e) { return Vector3d(e - normal_.dot(e) * normal_); };
   Vector3d first = projected(Vector3d::UnitX());

@@ -10,7 +10,8 @@ Set obstacles_of(const scene::Scene& scene) {
   if (scene.plate) {
     const double up = scene.plate->side == scene::PlateSide::above ? 1.0 : -1.0;
     return Set(
-        {unit_cylinder(), std::make_shared<const Plane>(Vector3d(0.0, 0.0, up), up * scene.plate->height)});
+        {unit_cylinder(), std::make_shared<const Plane>(Vector3d(0.0, 0.0, up), up * scene.plate->height,
+                                                        scene.plate->outer_radius)});
   }
   if (scene.has_cylinder) return cylinder;
   std::vector<SurfacePointer> walls;

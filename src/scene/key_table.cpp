@@ -249,8 +249,9 @@ std::vector<Key> load_keys() {
                .is_parameter = true};
   const Key couple = truth(
       "cylinder.friction_couple",
-      "while sliding, of a rod that may touch itself: has the friction, which acts at the rod's "
-      "surface, a moment about its centre line? default: true",
+      "while sliding, of a rod with a radius: has the friction, which acts at the rod's surface, a moment "
+      "about its "
+      "centre line? needs an end that does not spin; built for isolated touches; default: true",
       [](const Scene& scene) -> std::optional<double> {
         return scene.motion.friction_couple ? std::nullopt : std::optional(0.0);
       },

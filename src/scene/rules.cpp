@@ -126,6 +126,25 @@ void check_knot(const Document& document, const Scene& scene) {
     forbid(document, "continuation.parameter", "must not be load.angle with knot.kind = \"clove_hitch\"");
 }
 
+/// The moment of the friction about the centre line, of a rod that has a radius.
+template <class Refuse>
+void check_friction_couple(const Scene& scene, const Refuse& refuse) {
+  const char* key = "cylinder.friction_couple";
+  if (!(scene.friction_arm() > 0.0) && !(scene.friction_has_couple() && starts_in(scene, "rod.radius")))
+    return;
+  if (scene.self_contact)
+    refuse(key,
+           "must be false for a rod that may touch itself: the moment of the friction about its centre line "
+           "twists its "
+           "tails, which then do not lie in the plate; a rod with rod.self_contact = false may have it");
+  if (scene.ends.left_kind() == EndKind::moment_free && scene.ends.right_kind() == EndKind::moment_free)
+    refuse(key,
+           "must be false where both ends turn freely: nothing balances the moment of the friction about the "
+           "rod's tangent; ends.kind = \"clamped\" or \"spin_held\" holds it");
+  if (scene.model.kind == ModelKind::planar)
+    refuse(key, "must be false with model.kind = \"planar\": the moment of the friction twists the rod");
+}
+
 /// Plates, and cylinders that slide.
 void check_sliding(const Document& document, const Scene& scene) {
   const auto refuse = [&](const std::string& key, const std::string& why) {
@@ -137,8 +156,6 @@ void check_sliding(const Document& document, const Scene& scene) {
     if (!scene.has_cylinder) refuse("plate.height", "needs a [cylinder]");
     if (scene.plate->outer_radius < 1.0)
       refuse("plate.outer_radius", "must be >= 1: a smaller plate does not reach the rod on the cylinder");
-    if (!std::isinf(scene.plate->outer_radius))
-      refuse("plate.outer_radius", "a plate's outer edge is not built yet; must be \"inf\"");
     if (scene.rod.infinite()) refuse("rod.length", "must be finite with a plate");
     if (scene.knot.tied()) refuse("plate.height", "must not be given with a knot: not built yet");
     if (scene.model.symmetry == Symmetry::half_turn)
@@ -151,10 +168,7 @@ void check_sliding(const Document& document, const Scene& scene) {
   if (scene.plate->side != PlateSide::above)
     refuse("plate.side",
            "must be \"above\" with cylinder.sliding = \"up\", or the cylinder would carry the rod away");
-  if (scene.self_contact && scene.motion.friction_couple)
-    refuse("cylinder.friction_couple",
-           "must be false for a rod that may touch itself: the moment of the friction about its centre line "
-           "is not built yet");
+  check_friction_couple(scene, refuse);
   for (const auto& [end, kind] :
        {std::pair{"ends.left", scene.ends.left_kind()}, {"ends.right", scene.ends.right_kind()}})
     if (scene.self_contact && kind != EndKind::moment_free)

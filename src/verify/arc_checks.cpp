@@ -160,10 +160,15 @@ void look_along(const std::vector<Section>& sections, double begin, double h, Ar
       found.off_surface.add(std::abs(Gap(sections[k], around.below).value));
       found.pressures.emplace_back(begin + static_cast<double>(k) * h, around.pressure(sections[k]));
     }
-    for (const Shape& shape : around.shapes)
-      if (kind == ArcKind::free || &shape != &around.below)
+    for (const Shape& shape : around.shapes) {
+      if (kind != ArcKind::free && &shape == &around.below) continue;
+      const bool over[] = {shape.reaches(sections[k - 1].r), shape.reaches(sections[k].r)};
+      for (const bool ahead : {false, true})  // past a plate's outer edge
+        if (over[ahead] && !over[!ahead]) found.gap.add(shape.gap(sections[ahead ? k : k - 1].r));
+      if (over[0] && over[1])
         found.gap.add(smallest_between(Gap(sections[k - 1], shape, around.law),
                                        Gap(sections[k], shape, around.law), h));
+    }
   }
 }
 
@@ -237,7 +242,8 @@ double check_arcs(const Solution& solution, const scene::Scene& scene, const Sca
     any_line = any_line || arc.kind == ArcKind::line;
     for (Eigen::Index i = 0; i < arc.s.size(); ++i) norm.add(std::abs(arc.q.col(i).norm() - 1.0));
     const Shape* below = arc.kind == ArcKind::line ? shape_of(shapes, arc.obstacle) : nullptr;
-    if (arc.kind == ArcKind::line && !below) found.off_surface.add(NAN);  // a line on nothing
+    // A line on nothing; or with the moment of the friction along it, which this integration has not.
+    if (arc.kind == ArcKind::line && (!below || below->has_couple())) found.off_surface.add(NAN);
     const Shape pressed = !below ? none : on_plate(arc, scene) ? below->beside_plate() : *below;
     integrate(arc, {law, shapes, pressed}, scales, found);
   }

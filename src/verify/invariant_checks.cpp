@@ -83,6 +83,8 @@ void check_invariants(const Solution& solution, const scene::Scene& scene, const
       strand_push += push;
       strand_torque += joint.r.cross(push).z();
     }
+    // The moment of the friction at a touch of the cylinder is judged there (joint_moment).
+    if (k > 0 && scene.friction_arm() > 0.0 && solution.joints[k].obstacle == 0) twist.restart();
     if (arc.s_end - arc.s_begin < tight) continue;  // vanishes at an event, and has no section of its own
     for (Eigen::Index i = 0; i < arc.s.size(); ++i) {
       const Section x = sample(arc, i);

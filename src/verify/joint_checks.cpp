@@ -81,7 +81,7 @@ void check_joints(const Solution& solution, const scene::Scene& scene, const Sca
     position.add((before.r - after.r).norm());
     position.add((joint.r - after.r).norm());
     frame.add(frame_distance(before.q, after.q));
-    moment.add((before.m - after.m).norm() / scales.moment);
+    Vector3d turn = after.m - before.m;
     Vector3d jump = after.n - before.n + joint.holding * joint.holding_direction();
     if (in_contact) {
       const Shape* shape = shape_of(shapes, joint.obstacle);
@@ -93,8 +93,9 @@ void check_joints(const Solution& solution, const scene::Scene& scene, const Sca
         const bool held = (flat[0] && left.kind == equilibrium::ArcKind::line) ||
                           (flat[1] && right.kind == equilibrium::ArcKind::line) || (flat[0] && flat[1]);
         jump += joint.force * (held ? shape->beside_plate() : *shape).push(after.r, tangent(after));
+        turn += joint.force * shape->couple(after.r, tangent(after));
       }
-      surface.add(shape ? std::abs(shape->gap(after.r)) : NAN);
+      surface.add(shape && shape->reaches(after.r) ? std::abs(shape->gap(after.r)) : NAN);
       tangency.add(std::abs(outward.dot(tangent(after))));
     }
     if (joint.partner >= 0) {
@@ -106,6 +107,7 @@ void check_joints(const Solution& solution, const scene::Scene& scene, const Sca
       along.add(std::abs(e.dot(tangent(after))) * distance_that_counts(solution, k));
     }
     force.add(jump.norm() / scales.force);
+    moment.add(turn.norm() / scales.moment);
   }
   if (between.any()) {
     list.at_least("strand_force", between.value(), -tight, "smallest force between strands, / max(1, T)");
@@ -121,7 +123,10 @@ void check_joints(const Solution& solution, const scene::Scene& scene, const Sca
   list.at_most("joint_position", position.value(), tight,
                "jump of r at joints, and against the joint's own r");
   list.at_most("joint_frame", frame.value(), tight, "jump of q at joints");
-  list.at_most("joint_moment", moment.value(), tight, "jump of m at joints, / max(1, sqrt(T))");
+  list.at_most("joint_moment", moment.value(), tight,
+               scene.friction_arm() > 0.0
+                   ? "jump of m plus the friction's moment at joints, / max(1, sqrt(T))"
+                   : "jump of m at joints, / max(1, sqrt(T))");
   list.at_most("joint_force", force.value(), tight,
                "jump of n plus contact and holding force at joints, / max(1, T)");
   list.at_most("holding", holding.value(), tight,

@@ -18,13 +18,15 @@ Shape Shape::of(const scene::Plate& plate) {
   Shape shape;
   shape.normal_ = Vector3d(0.0, 0.0, -up);
   shape.distance_ = up * plate.height;
+  shape.outer_radius_ = plate.outer_radius;
   return shape;
 }
 
-Shape Shape::slipping(double friction, double travel) {
+Shape Shape::slipping(double friction, double travel, double arm) {
   Shape shape;
   shape.friction_ = friction;
   shape.travel_ = travel;
+  shape.arm_ = arm;
   return shape;
 }
 
@@ -56,7 +58,7 @@ double Shape::bend(const Vector3d& r, const Vector3d& t) const {
 
 std::vector<Shape> shapes_of(const scene::Scene& scene, double travel) {
   if (scene.has_cylinder) {
-    std::vector<Shape> shapes{Shape::slipping(scene.dragging_friction(), travel)};
+    std::vector<Shape> shapes{Shape::slipping(scene.dragging_friction(), travel, scene.friction_arm())};
     if (scene.plate) shapes.push_back(Shape::of(*scene.plate));
     return shapes;
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "support/csv.hpp"
 #include "support/run_program.hpp"
@@ -213,6 +214,87 @@ BOOST_AUTO_TEST_CASE(a_thick_coil_is_followed_until_its_strands_part) {
   });
   BOOST_REQUIRE(parts != points.end());
   BOOST_TEST(parts->at("before").get<std::string>().find("cross:2") != std::string::npos);
+}
+
+namespace {
+
+/// Between clamps and under a pull that leaves it on isolated touches.
+std::vector<std::string> on_touches(std::vector<std::string> more) {
+  std::vector<std::string> out = {"rod.length=22.283185307179586", "load.tension=0.3", "ends.kind=clamped",
+                                  "model.kind=kirchhoff", "rod.self_contact=false"};
+  out.insert(out.end(), more.begin(), more.end());
+  return out;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(friction_has_its_moment_at_touches) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> thick = on_touches({"rod.radius=0.2857142857142857"});
+  const nlohmann::json state = solved(thick);
+  BOOST_TEST(state["states"].size() == 1u);
+  BOOST_TEST(state["stability"]["index"] == 0);
+  // Travel is blocked: the drag is along the axis, and without moment about it.
+  const double drag = state["F0"].get<double>();
+  BOOST_TEST(std::abs(drag / (0.32 * state["R_tot"].get<double>()) - 1.0) < 1e-10);
+  BOOST_TEST(state["invariants"]["axial_torque_drift"].get<double>() < 1e-10);
+  // Two per cent more than without, where there is the flat coil, too.
+  const nlohmann::json without =
+      solved(on_touches({"rod.radius=0.2857142857142857", "cylinder.friction_couple=false"}));
+  const nlohmann::json thin = solved(on_touches({}));
+  BOOST_REQUIRE(without["states"].size() == 2u);
+  BOOST_TEST(without["states"][1]["F0"] == thin["states"][1]["F0"]);
+  const double excess = drag / thin["states"][1]["F0"].get<double>() - 1.0;
+  BOOST_TEST(excess > 0.01);
+  BOOST_TEST(excess < 0.04);
+  // Down in tension; and up, to where a line would begin.
+  std::vector<std::string> down = thick, up = thick;
+  down.insert(down.end(), {"continuation.from=0.3", "continuation.to=0.2"});
+  up.insert(up.end(), {"continuation.from=0.3", "continuation.to=0.6"});
+  BOOST_TEST(followed((folder / "down").string(), down).empty());
+  const auto ends = followed((folder / "up").string(), up);
+  BOOST_REQUIRE(ends.size() == 1u);
+  BOOST_TEST(ends[0]["after"].get<std::string>().find("not built for lines") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(a_moment_that_cannot_be_honoured_is_refused) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> thick = on_touches({"rod.radius=0.2857142857142857"});
+  for (const auto& [setting, why, status] :
+       {std::tuple{"ends.kind=moment_free", "nothing balances the moment", 1},
+        {"rod.self_contact=true", "must be false for a rod that may touch itself", 1},
+        {"model.kind=planar", "twists the rod", 1},
+        {"load.tension=1", "there is no flat coil", 2}}) {
+    std::vector<std::string> settings = thick;
+    settings.push_back(setting);
+    const Outcome outcome = run_program(sliding("solve", settings), folder.path());
+    BOOST_TEST(outcome.status == status);
+    BOOST_TEST(outcome.err.find("cylinder.friction_couple") != std::string::npos, outcome.err);
+    BOOST_TEST(outcome.err.find(why) != std::string::npos, outcome.err);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_plate_ends_at_its_outer_edge) {
+  // The state without friction's moment touches the plate with one tail; a plate that does not reach there has the coil alone.
+  const nlohmann::json endless = solved(on_touches({}));
+  const nlohmann::json wide = solved(on_touches({"plate.outer_radius=3"}));
+  const nlohmann::json narrow = solved(on_touches({"plate.outer_radius=1.05"}));
+  BOOST_REQUIRE(endless["states"].size() == 2u);
+  BOOST_TEST(wide["states"] == endless["states"]);
+  BOOST_REQUIRE(narrow["states"].size() == 1u);
+  BOOST_TEST(narrow["states"][0] == endless["states"][0]);
+  BOOST_TEST(narrow["model_reason"].get<std::string>().find("beyond plate.outer_radius") !=
+             std::string::npos);
+  // Followed, the touch wanders outward and the branch ends on the edge.
+  const TemporaryFolder folder;
+  const std::string run = (folder / "run").string();
+  const auto ends =
+      followed(run, on_touches({"plate.outer_radius=1.22", "continuation.from=0.3", "continuation.to=0.2"}));
+  BOOST_REQUIRE(ends.size() == 1u);
+  BOOST_TEST(ends[0]["after"] == "contact with the plate's outer edge");
+  const Outcome pull = run_program(sliding("pull", {"plate.outer_radius=3"}), folder.path());
+  BOOST_TEST(pull.status == 1);
+  BOOST_TEST(pull.err.find("plate.outer_radius") != std::string::npos, pull.err);
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_slide_is_refused) {

@@ -33,6 +33,7 @@ struct Loads {
   double twist = 0.0;        ///< strut: relative end rotation about e_x [rad]
   double radius = 0.0;       ///< of the rod: its strands keep 2r apart [ρ]
   double friction = 0.0;     ///< mu of the cylinder that slips along the rod, towards +e_z; 0: it stands
+  double arm = 0.0;          ///< of the friction about the centre line, 0: it has no moment [ρ]
   double travel = 0.0;       ///< ω: the rod runs along itself at ω times the cylinder's speed
   double compliance = 0.0;   ///< 1/EA of a rod that stretches [ρ²/EI]
   double weight_x = 0.0, weight_y = 0.0, weight_z = 0.0;  ///< known force per length [EI/ρ³]

@@ -20,6 +20,7 @@
 /// | graze | least gap inside a free arc, of each obstacle | a new touch |
 /// | approach | least distance of two strands less 2r, of every pair of links | a new touch of the two |
 /// | reaction | force of the obstacle under a strand that another presses on, and what the line carries of it | it lifts |
+/// | rim | how far inside a plate's outer edge it is touched | contact with that edge, which is not built |
 /// | buckling | margin of a line without pressure against its own buckling | it bows off the obstacle between two touches |
 ///
 /// **A gap that has just opened is carried by its line.** Where the pressure p of a line contact is negative, the rod lifts: a
@@ -72,7 +73,7 @@ inline constexpr double carried_between_strands = 8e-10;
 inline constexpr double spare_between_strands = 1e-2;
 
 struct ContactEvent {
-  enum class Kind { pressure, suction, length, force, curvature, graze, buckling, approach, reaction };
+  enum class Kind { pressure, suction, length, force, curvature, graze, buckling, approach, reaction, rim };
   Kind kind = Kind::force;
   int place = 0;  ///< link (pressure, suction, length, graze, buckling) or joint (force, curvature)
   double value = 0.0;
@@ -106,6 +107,7 @@ struct Successor {
       {};  ///< ends of lines between strands that are known by guess only: the shape adjusts to them first
   int bowed = -1;             ///< link that has no bow at the event itself, −1: none
   bool nothing_left = false;  ///< no contact remains: the branch ends
+  bool at_rim = false;        ///< a contact has reached a plate's outer edge: the branch ends
   bool at_end = false;        ///< a contact has reached the rod's end, no tail remains: the branch ends
 };
 

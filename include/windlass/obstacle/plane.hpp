@@ -12,7 +12,10 @@ namespace windlass::obstacle {
 class Plane final : public Surface {
  public:
   /// @param normal  n, of any length but zero; `distance` is along its direction [ρ]
-  Plane(const Vector3d& normal, double distance);
+  /// @param outer_radius  of a plate round e_z; its edge is no obstacle
+  Plane(const Vector3d& normal, double distance,
+        double outer_radius = std::numeric_limits<double>::infinity());
+  double outer_radius() const override { return outer_radius_; }
   double gap(const Vector3d& r) const override { return distance_ + normal_.dot(r); }
   Vector3d normal(const Vector3d&) const override { return normal_; }
   Matrix3d hessian(const Vector3d&) const override { return Matrix3d::Zero(); }
@@ -29,7 +32,7 @@ class Plane final : public Surface {
 
  private:
   Vector3d normal_;  ///< N = −n
-  double distance_;
+  double distance_, outer_radius_;
   Eigen::Matrix<double, 3, 2> axes_;
   Quaternion frame_;
 };

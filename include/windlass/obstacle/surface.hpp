@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -54,6 +55,9 @@ class Surface {
   virtual Quaternion base_frame(const Vector2d& u) const = 0;
   /// Normal curvature along u₀, h₀₀ [1/ρ]; along u₁ there is none.
   virtual double curvature() const = 0;
+
+  /// Distance from e_z up to which it reaches [ρ].
+  virtual double outer_radius() const { return std::numeric_limits<double>::infinity(); }
 
   /// May it move along +e_z while the rod stands, so that it slips along the rod (Loads::friction)?
   virtual bool slips() const { return false; }

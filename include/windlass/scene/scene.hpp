@@ -179,6 +179,9 @@ struct Scene {
   }
   bool has_obstacles() const { return has_cylinder || !walls.empty(); }
   double dragging_friction() const { return slides() ? friction.value_or(0.0) : 0.0; }  ///< mu of what slips
+  bool friction_has_couple() const { return slides() && motion.friction_couple; }
+  /// Distance from the centre line at which friction acts, where its moment about it counts [ρ].
+  double friction_arm() const { return friction_has_couple() ? rod_radius : 0.0; }
 
   bool operator==(const Scene&) const = default;
 };

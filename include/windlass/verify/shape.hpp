@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -15,7 +16,8 @@ class Shape {
   static Shape of(const scene::Wall& wall);
   static Shape of(const scene::Plate& plate);
   /// The cylinder slipping towards +e_z along a rod that runs along itself at `travel` times its speed.
-  static Shape slipping(double friction, double travel);
+  /// @param arm  from the rod's centre line to where its friction acts; 0: without moment about it
+  static Shape slipping(double friction, double travel, double arm);
   /// The same where a plate takes what the friction has along e_z.
   Shape beside_plate() const;
 
@@ -24,15 +26,26 @@ class Shape {
       const Eigen::Vector3d& r) const;  ///< normal part of the contact force on the rod, 1
   /// Its whole contact force, N + mu d, on a rod with the tangent t.
   Eigen::Vector3d push(const Eigen::Vector3d& r, const Eigen::Vector3d& t) const;
+  /// The moment of push() about the centre line, per force: it acts `arm` below it.
+  Eigen::Vector3d couple(const Eigen::Vector3d& r, const Eigen::Vector3d& t) const {
+    return -arm_ * outward(r).cross(push(r, t));
+  }
+  bool has_couple() const { return arm_ > 0.0; }
   /// Second derivative of the gap along a unit tangent t, but for the part that the curvature of the rod has.
   double bend(const Eigen::Vector3d& r, const Eigen::Vector3d& t) const;
+  /// Is a place on this side of a plate's outer edge? To the precision of an event.
+  bool reaches(const Eigen::Vector3d& r) const {
+    constexpr double located = 1e-9;
+    return r.head<2>().norm() <= outer_radius_ + located;
+  }
   /// The outward normal of a wall, the same everywhere.
   const std::optional<Eigen::Vector3d>& wall() const { return normal_; }
 
  private:
   std::optional<Eigen::Vector3d> normal_;  ///< of a wall: −n
   double distance_ = 0.0;
-  double friction_ = 0.0, travel_ = 0.0;
+  double friction_ = 0.0, travel_ = 0.0, arm_ = 0.0;
+  double outer_radius_ = HUGE_VAL;
   bool plate_takes_ = false;
 };
 

@@ -1,0 +1,116 @@
+// The moment of the friction about the centre line, at isolated touches.
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "couple_shooting.hpp"
+#include "windlass/chain/guess.hpp"
+#include "windlass/equilibrium/equilibria.hpp"
+#include "windlass/equilibrium/record.hpp"
+#include "windlass/equilibrium/start.hpp"
+#include "windlass/verify/certificate.hpp"
+
+namespace {
+
+using namespace windlass;
+
+/// A rod once round a cylinder that slides, on a plate, under a pull that leaves it on isolated touches.
+scene::Scene dragged(double radius, scene::Travel travel) {
+  scene::Scene scene;
+  scene.has_cylinder = true;
+  scene.load.tension = 0.3;
+  scene.load.angle = 2.0 * M_PI;
+  scene.rod.length = 2.0 * M_PI + 16.0;
+  scene.rod_radius = radius;
+  scene.friction = 0.32;
+  scene.motion.sliding = scene::Sliding::up;
+  scene.plate.emplace();
+  scene.ends.kind = scene::EndKind::clamped;
+  scene.ends.travel = travel;
+  scene.model.kind = scene::ModelKind::kirchhoff;
+  scene.model.tolerance = 1e-12;
+  return scene;
+}
+
+/// The state that touches the plate with one tail.
+equilibrium::Started state_of(const scene::Scene& scene) {
+  return equilibrium::cold_start(scene, true, false, {"cylinder.friction"});
+}
+
+double drag_of(equilibrium::Started& state) {
+  return *equilibrium::record(*state.problem, state.x, state.p).F0;
+}
+
+/// On uniform meshes, from the state that the program finds.
+double drag_on(const equilibrium::Started& found, const scene::Scene& scene, int stages, int elements) {
+  const equilibrium::RodProblem& exact = *found.problem;
+  const std::vector<chain::ArcMesh> meshes(exact.chain().link_count(),
+                                           {chain::uniform_mesh(elements), stages});
+  equilibrium::RodProblem problem(scene, true, exact.topology(), meshes, {"cylinder.friction"});
+  Eigen::VectorXd x = chain::transfer_state(exact.chain(), problem.chain(), found.x, problem.loads(found.p));
+  BOOST_REQUIRE(problem.polish(x, found.p) >= 0);
+  return *equilibrium::record(problem, x, found.p).F0;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(moment_of_friction)
+
+BOOST_AUTO_TEST_CASE(agrees_with_shooting) {
+  for (const scene::Travel travel : {scene::Travel::blocked, scene::Travel::free})
+    for (const double radius : {0.1, 2.0 / 7.0}) {
+      const scene::Scene scene = dragged(radius, travel);
+      equilibrium::Started state = state_of(scene);
+      const equilibrium::Solution solution = equilibrium::record(*state.problem, state.x, state.p);
+      const verify::Certificate certificate = verify::verify(solution, scene, {});
+      BOOST_TEST(certificate.passed(), verify::to_text(certificate));
+      const test::Dragged exact = test::shot_from_touches(solution, scene);
+      const double travelled =
+          travel == scene::Travel::free ? solution.travel_rate : solution.pull_difference;
+      BOOST_TEST_MESSAGE("r " << radius << " F0 " << *solution.F0 << " off by " << *solution.F0 - exact.drag
+                              << ", R_tot " << solution.R_tot << ", travelled " << travelled << " off by "
+                              << travelled - exact.travelled);
+      // The error of the meshes, asked for to 1e-12, and what shooting over decay lengths makes of rounding.
+      BOOST_TEST(std::abs(*solution.F0 - exact.drag) < 1e-10);
+      BOOST_TEST(std::abs(solution.R_tot - exact.contact_force) < 1e-10);
+      BOOST_TEST(std::abs(travelled - exact.travelled) < 1e-10);
+      // Along the axis, and about it where friction has no moment about it.
+      BOOST_TEST(std::abs(*solution.F0 - solution.plate_force) < 1e-10);
+      if (travel == scene::Travel::blocked) BOOST_TEST(solution.invariants.axial_torque_drift < 1e-10);
+      // The same state is none of the scene without the moment.
+      scene::Scene without = scene;
+      without.motion.friction_couple = false;
+      BOOST_TEST(!verify::verify(solution, without, {}).passed());
+    }
+}
+
+BOOST_AUTO_TEST_CASE(tends_to_the_thin_rod_at_the_rate_of_the_radius) {
+  equilibrium::Started thin = state_of(dragged(0.0, scene::Travel::blocked));
+  const double none = drag_of(thin);
+  const auto change = [&](double radius) {
+    equilibrium::Started state = state_of(dragged(radius, scene::Travel::blocked));
+    return (drag_of(state) - none) / radius;
+  };
+  const double far = change(0.04), near = change(0.02), nearer = change(0.01);
+  BOOST_TEST_MESSAGE("dF0/dr " << far << " " << near << " " << nearer);
+  BOOST_TEST(std::abs(nearer) > 1e-3);
+  BOOST_TEST(std::abs((far - near) / (near - nearer) - 2.0) < 0.2);  // what is left is of first order in r
+}
+
+BOOST_AUTO_TEST_CASE(order_is_twice_the_number_of_stages) {
+  const scene::Scene scene = dragged(2.0 / 7.0, scene::Travel::blocked);
+  equilibrium::Started found = state_of(scene);
+  const double exact = drag_on(found, scene, 6, 64);
+  for (int stages : {2, 3}) {
+    const int coarse = stages == 2 ? 64 : 36;
+    const double first = std::abs(drag_on(found, scene, stages, coarse) - exact);
+    const double second = std::abs(drag_on(found, scene, stages, 2 * coarse) - exact);
+    const double order = std::log2(first / second);
+    BOOST_TEST_CONTEXT("stages " << stages << ", errors " << first << " " << second) {
+      BOOST_TEST_MESSAGE("stages " << stages << ": order " << order << ", errors " << first << " " << second);
+      BOOST_TEST(order > 2 * stages - 0.6);
+      BOOST_TEST(order < 2 * stages + 1.5);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
