@@ -64,12 +64,6 @@ class Course {
   }
 
   double other(double s) const { return interpolated(s_, other_, s); }
-  /// The place that the other strand has at `other`.
-  double facing(double other) const {
-    std::vector<double> x = other_, y = s_;
-    if (x.front() > x.back()) std::reverse(x.begin(), x.end()), std::reverse(y.begin(), y.end());
-    return interpolated(x, y, other);
-  }
   double rate(double s) const {
     const auto after = std::clamp<std::size_t>(
         static_cast<std::size_t>(std::upper_bound(s_.begin(), s_.end(), s) - s_.begin()), 1, s_.size() - 1);
@@ -124,7 +118,6 @@ std::vector<double> laid_out(const Course& course, double begin, double end, con
     double density = 1.0 / most;
     density += beside(0) / most * std::exp(-0.5 * (s - begin) / most);
     density += beside(1) / most * std::exp(-0.5 * (end - s) / most);
-    for (const double at : ends.facing) density += densest / most * std::exp(-0.5 * std::abs(s - at) / most);
     sum.push_back(sum.back() + (p > 0.0 ? step * density : 1.0 / (samples + 1)));
   }
   needed += finer * sum.back();
@@ -150,7 +143,6 @@ struct Divided {
   double other_begin, other_end;
   bool image, own_image, by_first;
   int mark;
-  std::vector<double> facing = {};  ///< joints of the other strand
 };
 
 Divided divided(const Strip& strip, const Strands& strands, const StrandLine& line,
@@ -179,7 +171,6 @@ Divided divided(const Strip& strip, const Strands& strands, const StrandLine& li
     const std::vector<double> lower = between(strip.s[begin], middle), upper = between(middle, strip.s[end]);
     out.by_first = lower.size() >= upper.size();
     out.s = out.by_first ? lower : upper;
-    out.facing = out.by_first ? upper : lower;
     out.s.insert(out.s.begin(), out.by_first ? strip.s[begin] : middle);
     out.s.push_back(out.by_first ? middle : strip.s[end]);
     out.other_begin = out.by_first ? strip.s[end] : middle;
@@ -191,7 +182,6 @@ Divided divided(const Strip& strip, const Strands& strands, const StrandLine& li
   if (!out.by_first) std::swap(begin, other_begin), std::swap(end, other_end);
   if (begin > end) std::swap(begin, end), std::swap(other_begin, other_end);
   out.s = out.by_first ? first : second;
-  out.facing = out.by_first ? second : first;
   out.s.insert(out.s.begin(), strip.s[begin]), out.s.push_back(strip.s[end]);
   out.other_begin = strip.s[other_begin], out.other_end = strip.s[other_end];
   return out;
@@ -256,16 +246,6 @@ class Layer {
     return (before || s - line.s.front() > least) && (behind || line.s.back() - s > least);
   }
 
-  /// Where joints of the other strand face a line, but close to its ends.
-  std::vector<double> faced(const Divided& line, const Course& course) const {
-    std::vector<double> out;
-    for (const double other : line.facing) {
-      const double s = course.facing(other);
-      if (inside(line, s, beside_end * profile_.unit_length)) out.push_back(s);
-    }
-    return out;
-  }
-
   Course course_of(const Divided& line) const {
     return {known_, line.s.front(), line.other_begin, line.s.back(), line.other_end, line.image};
   }
@@ -283,12 +263,9 @@ class Layer {
         const auto closed = [&](double at) {  // close to an end the line opens where touches are laid densely
           return has_touch(other, at) || !inside(other, at, beside_end * profile_.unit_length);
         };
-        const Course course = course_of(other);
-        const Pressed ends{inner,
-                           {!inner[0] || closed(bounds.first), !inner[1] || closed(bounds.second)},
-                           faced(other, course)};
+        const Pressed ends{inner, {!inner[0] || closed(bounds.first), !inner[1] || closed(bounds.second)}};
         double links = 0.0;
-        const std::vector<double> own = laid_out(course, bounds.first, bounds.second, ends,
+        const std::vector<double> own = laid_out(course_of(other), bounds.first, bounds.second, ends,
                                                  profile_.material.bending_stiffness, finer_, links);
         if (&other == &line) needed += links;
         if (own.size() > most.size()) most = own;

@@ -301,12 +301,10 @@ std::optional<Vector> RodProblem::laid_where_needed(const Vector& x, const Vecto
   for (const ContactEvent& event : contact_events(shape, topology_))
     if (event.kind == ContactEvent::Kind::approach && event.redrawn)
       nearer = std::max(nearer, 1.0 - event.value);
-  const double tilted = tilted_at_touches(shape, topology_) / carried_between_strands;
-  if (nearer > many && nearer < few && tilted < few) return std::nullopt;
+  if (nearer > many && nearer < few) return std::nullopt;
   const Strip strip(topology_, joint_places(x, p, shape));
   const Successor next = with_touches(skeleton_of(strip).strip.successor(), shape, topology_);
   if (nearer < many && next.s.size() >= strip.s.size()) return std::nullopt;
-  if (nearer < few && tilted > few && next.s.size() <= strip.s.size()) return std::nullopt;  // no help
   Entry laid = draft(*this, next, shape, p);
   if (laid.problem->polish(laid.x, p) < 0) return std::nullopt;
   topology_ = laid.problem->topology();

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "windlass/rod/quaternion.hpp"
-
 namespace windlass::equilibrium {
 
 using chain::Contact;
@@ -39,18 +37,6 @@ double nearer_between_touches(const Profile& profile, const chain::Topology& top
   for (int l = 0; l < static_cast<int>(strands.lines().size()); ++l)
     if (const chain::StrandLine& line = strands.lines()[l]; !line.on_obstacles && line.links() > 1)
       most = std::max(most, nearer_between(profile, strands, l));
-  return most;
-}
-
-double tilted_at_touches(const Profile& profile, const chain::Topology& topology) {
-  const chain::Strands strands(topology);
-  double most = 0.0;
-  for (const Contact& c : profile.contacts) {
-    if (c.coupling < 0 || strands.line_of(c.joint) < 0 || !strands.inside_line(c.joint)) continue;
-    if (strands.lines()[strands.line_of(c.joint)].on_obstacles) continue;
-    const Eigen::Vector3d tangent = rod::directors(profile.pieces[c.joint].q.col(0)).col(2);
-    most = std::max(most, 0.5 * span_of(profile, strands, c.joint) * std::abs(tangent.dot(c.normal)));
-  }
   return most;
 }
 

@@ -16,10 +16,6 @@ ContactEvent spare_touches(const chain::Profile& profile, const chain::Strands& 
 /// between free strands.
 double nearer_between_touches(const chain::Profile& profile, const chain::Topology& topology);
 
-/// How far strands tilt towards each other over half the way from a touch inside a line of theirs to the next [ρ]: where something
-/// else's point force acts between touches.
-double tilted_at_touches(const chain::Profile& profile, const chain::Topology& topology);
-
 /// What is pressed on right before the end of a line has no touch there: the end itself takes it. From the second distance on it is laid
 /// without, at the first it is laid with one: F d²/3B of the rod's height over a span to the next touch is below what is carried [ρ].
 inline constexpr double press_apart = 6e-4, press_at_end = 4e-4;
