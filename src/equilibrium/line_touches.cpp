@@ -91,17 +91,15 @@ class Course {
   double least_ = 0.0;
 };
 
-/// What acts on a part of a line beside its own touches.
-struct Pressed {
+/// What is at the two ends of a part of a line.
+struct PartEnds {
+  std::array<bool, 2> presses;  ///< a point force of something else, which goes on to this line
   std::array<bool, 2>
-      presses;  ///< at its two ends: a point force of something else, which goes on to this line
-  std::array<bool, 2>
-      touched;  ///< there: a touch of this line, the next one is a whole distance away, not half of one
-  std::vector<double> facing;  ///< places where such a force acts on the other strand
+      touched;  ///< a touch of this line: the next one is a whole distance away, not half of one
 };
 
 /// Places between two, `begin` and `end` not among them.
-std::vector<double> laid_out(const Course& course, double begin, double end, const Pressed& ends,
+std::vector<double> laid_out(const Course& course, double begin, double end, const PartEnds& ends,
                              double stiffness, double finer, double& needed) {
   // A force that no touch takes up where it acts spreads over those beside it, the farther the more it tilts the strands.
   constexpr double quarter = 0.25, denser = 1.5, densest = 5.0;
@@ -263,7 +261,7 @@ class Layer {
         const auto closed = [&](double at) {  // close to an end the line opens where touches are laid densely
           return has_touch(other, at) || !inside(other, at, beside_end * profile_.unit_length);
         };
-        const Pressed ends{inner, {!inner[0] || closed(bounds.first), !inner[1] || closed(bounds.second)}};
+        const PartEnds ends{inner, {!inner[0] || closed(bounds.first), !inner[1] || closed(bounds.second)}};
         double links = 0.0;
         const std::vector<double> own = laid_out(course_of(other), bounds.first, bounds.second, ends,
                                                  profile_.material.bending_stiffness, finer_, links);
