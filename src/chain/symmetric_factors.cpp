@@ -86,6 +86,7 @@ class Tridiagonal {
       throw std::domain_error("a second variation that is not finite has no eigenvalues");
     dsytrd_("L", &n_, reflectors_.data(), &n_, diagonal_.data(), beside_.data(), tau_.data(), work.data(),
             &work_size, &info);
+    check(info);
   }
 
   double largest() const {
@@ -113,17 +114,23 @@ class Tridiagonal {
     values = found.values;
     vectors.resize(n_, count);
     if (count == 0) return;
-    Eigen::VectorXd work(std::max(5, 64) * static_cast<Eigen::Index>(n_));
+    Eigen::VectorXd work(64 * n_);
     std::vector<int> iwork(n_), failed(count);
     const int work_size = static_cast<int>(work.size());
     int info = 0;
     dstein_(&n_, diagonal_.data(), beside_.data(), &count, values.data(), found.block.data(),
             found.split.data(), vectors.data(), &n_, work.data(), iwork.data(), failed.data(), &info);
+    check(info);
     dormtr_("L", "L", "N", &n_, &count, reflectors_.data(), &n_, tau_.data(), vectors.data(), &n_,
             work.data(), &work_size, &info);
+    check(info);
   }
 
  private:
+  static void check(int info) {
+    if (info != 0) throw std::domain_error("LAPACK found no eigenvalues of a second variation");
+  }
+
   struct Found {
     Eigen::VectorXd values;
     std::vector<int> block, split;
@@ -136,6 +143,7 @@ class Tridiagonal {
     int found = 0, splits = 0, info = 0;
     dstebz_(range, "B", &n_, &low, &high, &first, &last, &finest, diagonal_.data(), beside_.data(), &found,
             &splits, out.values.data(), out.block.data(), out.split.data(), work.data(), iwork.data(), &info);
+    check(info);
     out.values.conservativeResize(found);
     return out;
   }

@@ -335,6 +335,12 @@ std::string ContactEvent::name() const {
   return obstacle == 0 ? name : name + ":" + std::to_string(obstacle + 1);
 }
 
+std::optional<double> value_of(const std::vector<ContactEvent>& events, const std::string& name) {
+  for (const ContactEvent& event : events)
+    if (event.name() == name) return event.value;
+  return std::nullopt;
+}
+
 std::vector<int> vanished_beside_strands(const std::vector<ContactEvent>& events, const Topology& topology) {
   std::vector<int> links;
   for (const ContactEvent& event : events)

@@ -10,12 +10,6 @@ namespace windlass::equilibrium {
 
 namespace {
 
-std::optional<double> value_of(const std::vector<ContactEvent>& events, const std::string& name) {
-  for (const ContactEvent& event : events)
-    if (event.name() == name) return event.value;
-  return std::nullopt;
-}
-
 /// Value of the event where the problem is solved at p, from a state nearby.
 std::optional<double> value_at(RodProblem& problem, Vector& x, const Vector& p, const std::string& event) {
   if (problem.polish(x, p) < 0) return std::nullopt;

@@ -51,9 +51,7 @@ std::optional<double> locate_from_beyond(Entry& entry, double s, std::optional<s
     if (at.problem->polish(at.x, at.p, 18) < 0) return std::nullopt;
     const chain::Profile shape = at.problem->profile(at.x, at.p);
     if (!name) name = vanishing_with(shape, at.problem->topology(), s);
-    for (const ContactEvent& event : contact_events(shape, at.problem->topology()))
-      if (name && event.name() == *name) return event.value;
-    return std::nullopt;
+    return name ? value_of(contact_events(shape, at.problem->topology()), *name) : std::nullopt;
   };
   const double scale = std::max(1.0, std::abs(entry.p(0))), start = entry.p(0);
   Entry other = entry;
@@ -184,9 +182,9 @@ double to_flat(RodProblem& problem, Vector x, Vector p, const chain::Profile& sh
   double slope = 0.0;
   tried([&] {
     if (problem.polish(x, p) < 0) return false;
-    for (const ContactEvent& other : contact_events(problem.profile(x, p), problem.topology()))
-      if (other.name() == event.name()) slope = (other.value - event.value) / step;
-    return true;
+    const auto beside = value_of(contact_events(problem.profile(x, p), problem.topology()), event.name());
+    if (beside) slope = (*beside - event.value) / step;
+    return beside.has_value();
   });
   return slope != 0.0 ? std::abs(touch->gap_curvature / slope) : -1.0;
 }

@@ -148,22 +148,38 @@ std::vector<Drawn> one_turns(const Study& study) {
 
 constexpr double compared[] = {0.3, 0.5, 1.0, 2.0, 5.0, 10.0};
 
-/// dlog R_tot/dlog T of the states computed beside a tension, to `slopes_file`, too.
-std::string slopes(const Study& study, const Canvas& canvas) {
-  std::string text, data = "# R/r | T | dlog R_tot/dlog T | its error\n";
+/// dlog R_tot/dlog T of the states computed beside a tension.
+struct LocalSlope {
+  const Thickness* thickness;
+  double tension;
+  StudyRun::LogSlope slope;
+};
+std::vector<LocalSlope> local_slopes(const Study& study) {
+  std::vector<LocalSlope> out;
   for (const Thickness& thickness : thicknesses) {
     if (thickness.colour == nullptr) continue;
     for (const double tension : compared) {
       const StudyRun& run =
           study.at(tension > 1.0 ? clove_hitch_up_run(thickness) : clove_hitch_down_run(thickness));
       if (tension > 1.0 && tension > run.run.rows.back().T) continue;
-      const StudyRun::LogSlope slope = run.log_slope_with_error(tension);
-      text += fmt::format("{}R/r = {}, T = {}: {:.6f} ± {:.1g}", text.empty() ? "" : "; ", thickness.name,
-                          tension, slope.value, slope.error);
-      data += output::data_line({thickness.ratio, tension, slope.value, slope.error});
+      out.push_back({&thickness, tension, run.log_slope_with_error(tension)});
     }
   }
+  return out;
+}
+
+void write_slopes(const std::vector<LocalSlope>& slopes, const Canvas& canvas) {
+  std::string data = "# R/r | T | dlog R_tot/dlog T | its error\n";
+  for (const auto& [thickness, tension, slope] : slopes)
+    data += output::data_line({thickness->ratio, tension, slope.value, slope.error});
   output::replace_file(canvas.folder / "clove-hitch-slopes.dat", std::string_view(data));
+}
+
+std::string told(const std::vector<LocalSlope>& slopes) {
+  std::string text;
+  for (const auto& [thickness, tension, slope] : slopes)
+    text += fmt::format("{}R/r = {}, T = {}: {:.6f} ± {:.1g}", text.empty() ? "" : "; ", thickness->name,
+                        tension, slope.value, slope.error);
   return text;
 }
 
@@ -185,7 +201,7 @@ std::string beside(const Study& study, const std::vector<Drawn>& list) {
 }
 
 std::vector<Statement> hitch_statements(const Study& study, const std::vector<Drawn>& list,
-                                        const Canvas& canvas) {
+                                        const std::vector<LocalSlope>& slopes) {
   const auto [text, worst] = collapse(list);
   constexpr double collapsed = 10.0;  // [%] what can still be called one curve on logarithmic axes
   return {
@@ -199,7 +215,7 @@ std::vector<Statement> hitch_statements(const Study& study, const std::vector<Dr
        "R_tot of the hitch over that of the 4π and of the 2π capstan of the same thickness: " +
            beside(study, list),
        Verdict::remark, ""},
-      {"superlinear at low tension", "local slope dlog R_tot/dlog T of the hitch: " + slopes(study, canvas),
+      {"superlinear at low tension", "local slope dlog R_tot/dlog T of the hitch: " + told(slopes),
        Verdict::agrees,
        "the error is that of differences over two steps, of states computed beside the tension"}};
 }
@@ -208,6 +224,8 @@ std::vector<Statement> hitch_statements(const Study& study, const std::vector<Dr
 
 Figure clove_hitch(const Study& study, const Canvas& canvas) {
   const std::vector<Drawn> list = knots(study);
+  const std::vector<LocalSlope> slopes = local_slopes(study);
+  write_slopes(slopes, canvas);
   std::vector<std::string> names = {"2pi", "4pi"};
   for (const Kind& kind : kinds)
     for (const Thickness& thickness : thicknesses) {
@@ -234,7 +252,7 @@ Figure clove_hitch(const Study& study, const Canvas& canvas) {
       "F0/μ = R_tot of frictionless equilibria; rods touch themselves. A curve ends where the contacts of "
       "strands change in a way that could not be followed. Numbers at a tension are interpolated between "
       "computed states, but for the slopes.",
-      names, hitch_statements(study, list, canvas)};
+      names, hitch_statements(study, list, slopes)};
 }
 
 }  // namespace windlass::figures

@@ -2,6 +2,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "observed_order.hpp"
 #include "support/coil_scene.hpp"
 #include "windlass/chain/guess.hpp"
 #include "windlass/equilibrium/rod_problem.hpp"
@@ -36,13 +37,8 @@ double total_force(bool spatial, int stages, int elements) {
 /// The crossing's force of a thick 2π coil (R/r = 2.5) on uniform meshes, from the state that the program finds.
 double crossing_force(const equilibrium::Started& found, const scene::Scene& scene, int stages,
                       int elements) {
-  const equilibrium::RodProblem& exact = *found.problem;
-  const std::vector<chain::ArcMesh> meshes(exact.chain().link_count(),
-                                           {chain::uniform_mesh(elements), stages});
-  equilibrium::RodProblem problem(scene, true, exact.topology(), meshes, {"load.tension"});
-  Eigen::VectorXd x = chain::transfer_state(exact.chain(), problem.chain(), found.x, problem.loads(found.p));
-  BOOST_REQUIRE(problem.polish(x, found.p) >= 0);
-  for (const chain::Contact& contact : problem.profile(x, found.p).contacts)
+  test::OnMeshes state = test::on_uniform_meshes(found, scene, stages, elements);
+  for (const chain::Contact& contact : state.problem.profile(state.x, found.p).contacts)
     if (contact.coupling >= 0) return contact.force;
   BOOST_FAIL("no touch between strands");
   return 0.0;
@@ -57,17 +53,8 @@ BOOST_AUTO_TEST_CASE(order_with_contact_of_the_rod_with_itself) {
   scene.model.tolerance = 1e-12;
   const equilibrium::Started found = equilibrium::cold_start(scene, true, true, {"load.tension"});
   const double exact = crossing_force(found, scene, 6, 48);
-  for (int stages : {2, 3}) {
-    const int coarse = stages == 2 ? 64 : 36;
-    const double first = std::abs(crossing_force(found, scene, stages, coarse) - exact);
-    const double second = std::abs(crossing_force(found, scene, stages, 2 * coarse) - exact);
-    const double order = std::log2(first / second);
-    BOOST_TEST_CONTEXT("stages " << stages << ", errors " << first << " " << second) {
-      BOOST_TEST_MESSAGE("stages " << stages << ": order " << order);
-      BOOST_TEST(order > 2 * stages - 0.6);
-      BOOST_TEST(order < 2 * stages + 1.5);
-    }
-  }
+  test::check_order(exact,
+                    [&](int stages, int elements) { return crossing_force(found, scene, stages, elements); });
 }
 
 BOOST_AUTO_TEST_CASE(order_is_twice_the_number_of_stages) {
@@ -76,14 +63,8 @@ BOOST_AUTO_TEST_CASE(order_is_twice_the_number_of_stages) {
     for (int stages : {2, 3, 4}) {
       // Meshes where the error is well above rounding and asymptotic.
       const int coarse = stages == 2 ? 48 : stages == 3 ? 24 : 16;
-      const double first = std::abs(total_force(spatial, stages, coarse) - exact);
-      const double second = std::abs(total_force(spatial, stages, 2 * coarse) - exact);
-      const double order = std::log2(first / second);
-      BOOST_TEST_CONTEXT("stages " << stages << ", spatial " << spatial << ", errors " << first << " "
-                                   << second) {
-        BOOST_TEST(order > 2 * stages - 0.6);
-        BOOST_TEST(order < 2 * stages + 1.5);
-      }
+      BOOST_TEST_CONTEXT("spatial " << spatial)
+      test::check_order(stages, coarse, exact, [&](int m, int n) { return total_force(spatial, m, n); });
     }
 }
 

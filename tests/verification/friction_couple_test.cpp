@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "couple_shooting.hpp"
+#include "observed_order.hpp"
 #include "windlass/chain/guess.hpp"
 #include "windlass/equilibrium/equilibria.hpp"
 #include "windlass/equilibrium/record.hpp"
@@ -42,13 +43,8 @@ double drag_of(equilibrium::Started& state) {
 
 /// On uniform meshes, from the state that the program finds.
 double drag_on(const equilibrium::Started& found, const scene::Scene& scene, int stages, int elements) {
-  const equilibrium::RodProblem& exact = *found.problem;
-  const std::vector<chain::ArcMesh> meshes(exact.chain().link_count(),
-                                           {chain::uniform_mesh(elements), stages});
-  equilibrium::RodProblem problem(scene, true, exact.topology(), meshes, {"cylinder.friction"});
-  Eigen::VectorXd x = chain::transfer_state(exact.chain(), problem.chain(), found.x, problem.loads(found.p));
-  BOOST_REQUIRE(problem.polish(x, found.p) >= 0);
-  return *equilibrium::record(problem, x, found.p).F0;
+  test::OnMeshes state = test::on_uniform_meshes(found, scene, stages, elements);
+  return *equilibrium::record(state.problem, state.x, found.p).F0;
 }
 
 }  // namespace
@@ -100,17 +96,7 @@ BOOST_AUTO_TEST_CASE(order_is_twice_the_number_of_stages) {
   const scene::Scene scene = dragged(2.0 / 7.0, scene::Travel::blocked);
   equilibrium::Started found = state_of(scene);
   const double exact = drag_on(found, scene, 6, 64);
-  for (int stages : {2, 3}) {
-    const int coarse = stages == 2 ? 64 : 36;
-    const double first = std::abs(drag_on(found, scene, stages, coarse) - exact);
-    const double second = std::abs(drag_on(found, scene, stages, 2 * coarse) - exact);
-    const double order = std::log2(first / second);
-    BOOST_TEST_CONTEXT("stages " << stages << ", errors " << first << " " << second) {
-      BOOST_TEST_MESSAGE("stages " << stages << ": order " << order << ", errors " << first << " " << second);
-      BOOST_TEST(order > 2 * stages - 0.6);
-      BOOST_TEST(order < 2 * stages + 1.5);
-    }
-  }
+  test::check_order(exact, [&](int stages, int elements) { return drag_on(found, scene, stages, elements); });
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -2,6 +2,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "observed_order.hpp"
 #include "windlass/equilibrium/record.hpp"
 #include "windlass/equilibrium/search.hpp"
 #include "windlass/rod/quaternion.hpp"
@@ -92,15 +93,8 @@ BOOST_AUTO_TEST_CASE(observed_order_on_a_helix_is_twice_the_number_of_stages) {
     return problem.target(problem.chain(), x, problem.loads(start.p));
   };
   const double exact = force(6, 4);  // order 12 on the finest mesh: exact to rounding
-  for (const int stages : {2, 3}) {
-    const double coarse = std::abs(force(stages, 2) - exact), fine = std::abs(force(stages, 4) - exact);
-    const double order = std::log2(coarse / fine);
-    // Two meshes still differ from the asymptotic order by a few tenths.
-    BOOST_TEST_CONTEXT("stages " << stages << ", errors " << coarse << " " << fine << ", order " << order) {
-      BOOST_TEST(order > 2 * stages - 0.6);
-      BOOST_TEST(order < 2 * stages + 1.5);
-    }
-  }
+  // Two meshes still differ from the asymptotic order by a few tenths.
+  for (const int stages : {2, 3}) test::check_order(stages, 2, exact, force);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -93,6 +93,9 @@ struct ContactEvent {
 /// All events of a state, in a fixed order for a given topology.
 std::vector<ContactEvent> contact_events(const chain::Profile& profile, const chain::Topology& topology);
 
+/// Of the event with that name; nullopt: there is none.
+std::optional<double> value_of(const std::vector<ContactEvent>& events, const std::string& name);
+
 /// Links beside a touch of strands that have no length left, as in the state of an event.
 std::vector<int> vanished_beside_strands(const std::vector<ContactEvent>& events,
                                          const chain::Topology& topology);

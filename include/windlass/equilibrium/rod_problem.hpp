@@ -116,9 +116,9 @@ class RodProblem final : public continuation::Problem {
   const std::vector<chain::ArcMesh>& meshes() const { return meshes_; }
   const std::vector<std::string>& keys() const { return keys_; }
   bool spatial() const { return spatial_; }
-  /// Does the cylinder slip along the rod? Its force then has no potential, and no index counts anything.
   /// Are its equations built for these contacts, with the moment of the friction if the scene asks for it?
   bool admits(const Topology& topology) const;
+  /// Does the cylinder slip along the rod? Its force then has no potential, and no index counts anything.
   bool dragged() const { return chain_->travel() != chain::Travel::none; }
   double last_error() const { return last_error_; }
   /// What earlier calls leave behind for later ones; a copy needs it to answer as this problem would.
