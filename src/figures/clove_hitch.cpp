@@ -31,18 +31,18 @@ std::vector<PlannedRun> knot_runs() {
                     true});
   for (const Thickness& thickness : thicknesses) {
     if (thickness.colour == nullptr) continue;
-    const auto plan = [&](const std::string& name, double to) {
+    const auto plan = [&](const std::string& name, double to, double step) {
       runs.push_back({name,
                       "clove-hitch",
                       {fmt::format("rod.radius={}", thickness.radius()), "continuation.from=1",
-                       fmt::format("continuation.to={}", to), "continuation.step_max=0.06"},
+                       fmt::format("continuation.to={}", to), fmt::format("continuation.step_max={}", step)},
                       false,
                       true});
     };
     // Above, several lines at once change: those of a thick rod take minutes.
     const double highest = thickness.ratio < 2.0 ? 1.2 : thickness.ratio < 4.0 ? 10.0 : 5.0;
-    plan(clove_hitch_down_run(thickness), 0.1);
-    plan(clove_hitch_up_run(thickness), highest);
+    plan(clove_hitch_down_run(thickness), 0.1, 0.06);
+    plan(clove_hitch_up_run(thickness), highest, 0.2);
   }
   return runs;
 }
