@@ -203,6 +203,9 @@ int run_pull(const PullRequest& request) {
   if (scene.friction_arm() > 0.0)
     throw scene::SceneError(
         scene.name + ": cylinder.friction_couple: a pull needs false: its friction acts at the centre line");
+  if (scene.rod.extensible)
+    throw scene::SceneError(scene.name +
+                            ": rod.extensible: a pull needs false: its discrete rod does not stretch");
   if (scene.plate && !std::isinf(scene.plate->outer_radius))
     throw scene::SceneError(scene.name +
                             ": plate.outer_radius: a pull needs \"inf\": its plate has no outer edge");

@@ -62,7 +62,7 @@ std::optional<Joint::Stretching> Chain::stretching(const VectorXd& x, const Load
 std::optional<Joint::Drag> Chain::drag_at(const VectorXd& x, const Loads& loads, int link, Side side) const {
   if (gauges_.travel == Travel::none) return std::nullopt;
   const int d = links_[link].arc->tangent(), joint = side == Side::right ? link : link + 1;
-  return joints_[joint]->drag(side, coordinates(x, joint), loaded(x, loads),
+  return joints_[joint]->drag(side, coordinates(x, joint), loaded(x, loads, joint),
                               gradients_[link].segment(side == Side::right ? 0 : d, d));
 }
 

@@ -10,6 +10,7 @@
 #include "entry.hpp"
 #include "friction_couple.hpp"
 #include "harvest.hpp"
+#include "stretched_drag.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/equilibrium/search.hpp"
 #include "windlass/rod/capstan.hpp"
@@ -274,6 +275,7 @@ Started coil_on_plate(const scene::Scene& scene, const std::vector<std::string>&
 std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector<std::string>& keys,
                                     std::string& searched) {
   if (scene.friction_arm() > 0.0) return dragged_with_couple(scene, keys, searched);
+  if (scene.rod.extensible) return dragged_with_stretch(scene, keys, searched);
   constexpr double flat = 1e-6;  // [ρ]
   // Next to nothing; with more friction the plate holds the tail nearer to the coil, so that short tails need more.
   constexpr double least = 1e-3, next = 2.0, most = 0.1;

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
 #include "dense_samples.hpp"
 #include "friction_couple.hpp"
+#include "stretched_drag.hpp"
 #include "windlass/chain/singular_matrix.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/equilibrium/start.hpp"
@@ -103,10 +105,15 @@ RodProblem::RodProblem(scene::Scene scene, bool spatial, Topology topology,
   rebuild();
 }
 
-bool RodProblem::admits(const Topology& topology) const {
-  const bool couple =
-      base_.arm != 0.0 || std::find(fields_.begin(), fields_.end(), &Loads::arm) != fields_.end();
-  return !couple || (spatial_ && carries_couple(topology));
+const char* RodProblem::missing_on(const Topology& topology) const {
+  const auto asked = [&](double Loads::*field) {
+    return base_.*field != 0.0 || std::find(fields_.begin(), fields_.end(), field) != fields_.end();
+  };
+  if (asked(&Loads::arm) && !(spatial_ && carries_couple(topology))) return "cylinder.friction_couple";
+  if (rod_.travel != chain::Travel::none && asked(&Loads::compliance) &&
+      !carries_stretch(topology, rod_.travel))
+    return "rod.extensible";
+  return nullptr;
 }
 
 void RodProblem::rebuild() {
@@ -119,7 +126,9 @@ void RodProblem::rebuild() {
   if (varies("rod.weight_y")) rod_.weighs[1] = true;
   if (varies("rod.weight_z")) rod_.weighs[2] = true;
   base_ = loads_of(scene_);
-  if (!admits(topology_)) throw NoEquilibrium(couple_not_carried());
+  if (const char* key = missing_on(topology_))
+    throw NoEquilibrium(key == std::string_view("rod.extensible") ? stretch_not_carried()
+                                                                  : couple_not_carried());
   chain_ = chain::build_chain(rod_, topology_, meshes_);
   chain_->let_slide(slides_);
   finer_.reset();

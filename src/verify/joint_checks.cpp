@@ -64,6 +64,7 @@ double judged_between(const Solution& solution, std::size_t k, const Scales& sca
 void check_joints(const Solution& solution, const scene::Scene& scene, const Scales& scales,
                   CheckList& list) {
   const std::vector<Shape> shapes = shapes_of(scene, solution.travel_rate);
+  const Stiffness law(scene.rod);
   Largest position, frame, moment, force, surface, tangency, holding, apart, along;
   Smallest contact, between;
   for (std::size_t k = 0; k < solution.joints.size(); ++k) {
@@ -92,8 +93,10 @@ void check_joints(const Solution& solution, const scene::Scene& scene, const Sca
         const bool flat[] = {on_plate(left, scene), on_plate(right, scene)};
         const bool held = (flat[0] && left.kind == equilibrium::ArcKind::line) ||
                           (flat[1] && right.kind == equilibrium::ArcKind::line) || (flat[0] && flat[1]);
-        jump += joint.force * (held ? shape->beside_plate() : *shape).push(after.r, tangent(after));
-        turn += joint.force * shape->couple(after.r, tangent(after));
+        // Friction along a rod that stretches changes the stretch: at a point it slips with the mean of the two.
+        const Vector3d slope = 0.5 * (law.stretch(before) + law.stretch(after)) * tangent(after);
+        jump += joint.force * (held ? shape->beside_plate() : *shape).push(after.r, slope);
+        turn += joint.force * shape->couple(after.r, slope);
       }
       surface.add(shape && shape->reaches(after.r) ? std::abs(shape->gap(after.r)) : NAN);
       tangency.add(std::abs(outward.dot(tangent(after))));

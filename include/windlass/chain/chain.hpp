@@ -276,11 +276,20 @@ class Chain {
   /// Motion of the phase gauge as an increment: dense block, then interiors.
   VectorXd phase_motion(Purpose purpose, const Numbering& numbering, const VectorXd& x,
                         const Loads& loads) const;
-  /// The loads with ω, where it is an unknown; valid until the next call.
-  const Loads& loaded(const VectorXd& x, const Loads& loads) const {
+  /// How much the rod is stretched where a cylinder slips along it at a joint, and its derivatives.
+  struct StretchAt {
+    double value = 1.0;        ///< λ = 1 + k n·t, n the mean of the forces on the two sides where it is free
+    contact::SmallVector by_w = {};  ///< tangent
+    contact::SmallVector by_n = {};  ///< with the force of either side, 3
+    std::vector<int> links = {};     ///< of the free sides
+  };
+  StretchAt stretch_at(const VectorXd& x, const Loads& loads, int joint) const;
+  /// The loads with the speed of the rod along itself at a joint, where ω is an unknown; valid until the next call.
+  const Loads& loaded(const VectorXd& x, const Loads& loads, int joint) const {
     if (gauges_.travel != Travel::free) return loads;
     with_travel_ = loads;
     with_travel_.travel = x(slide_at_ + 1);
+    if (loads.compliance != 0.0) with_travel_.travel *= stretch_at(x, loads, joint).value;
     return with_travel_;
   }
   /// n where a link ends.
