@@ -226,6 +226,19 @@ void Chain::add_stretching(const VectorXd& x, const Loads& loads, int joint, Mat
   if (numbering_.location[link] >= 0) dense(row, numbering_.location[link]) -= by_length;
 }
 
+/// Derivatives of the pulls T ± τ on ends on sliders: dead loads are linear in the tension.
+void Chain::add_pulled(const VectorXd& x, const Loads& loads, MatrixXd& dense) const {
+  for (const int j : {0, joint_count() - 1}) {
+    Loads more = loads;
+    more.tension += 1.0;
+    const SmallVector by_pull =
+        joints_[j]->dead_load(coordinates(x, j), more) - joints_[j]->dead_load(coordinates(x, j), loads);
+    for (std::size_t k = 0; k < kept_[j].size(); ++k)
+      dense(numbering_.coordinate[j] + static_cast<Eigen::Index>(k), numbering_.slide) +=
+          (j == 0 ? -1.0 : 1.0) * by_pull(kept_[j][k]);
+  }
+}
+
 void Chain::add_locations(const VectorXd& x, const Loads& loads, MatrixXd& dense) const {
   for (int j = 0; j < joint_count(); ++j) {
     const Eigen::Index row = numbering_.location[j];
@@ -236,6 +249,7 @@ void Chain::add_locations(const VectorXd& x, const Loads& loads, MatrixXd& dense
     if (loads.compliance != 0.0) add_stretching(x, loads, j, dense);
   }
   if (slide_at_ < 0) return;
+  if (gauges_.travel == Travel::blocked) add_pulled(x, loads, dense);
   if (slides_) dense(numbering_.slide, numbering_.slide) += 1.0;
   for (int j = 0; j < joint_count(); ++j) {
     const double share = slide_share(j);

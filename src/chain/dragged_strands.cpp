@@ -16,7 +16,8 @@ void Chain::add_dragged_pushes(const VectorXd& x, const Loads& loads, VectorXd& 
     const double push = strand_force(x, static_cast<int>(k));
     for (const int joint : {at.coupling.first, at.coupling.second}) {
       const Vector3d force = -push * at.push_on(joint);
-      if (const auto drag = joints_[joint]->drag_of_push(coordinates(x, joint), loaded(x, loads, joint), force))
+      if (const auto drag =
+              joints_[joint]->drag_of_push(coordinates(x, joint), loaded(x, loads, joint), force))
         add_kept(drag->value, joint, f);
     }
   }

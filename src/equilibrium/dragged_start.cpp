@@ -160,7 +160,8 @@ Started flat_on_plate(const scene::Scene& scene, const std::vector<std::string>&
   std::string failure;
   // Without a line the coil in space is free to turn: its shape is that of the plane.
   const bool lies = rod::capstan::line_contact(scene.load.tension, scene.load.angle);
-  const std::optional<Started> still = followed_coil(standing(scene), lies, false, keys, failure);
+  const std::optional<Started> still =
+      followed_coil(standing(scene), lies || scene.ends.guided(), false, keys, failure);
   if (!still) throw NoEquilibrium("there is no flat coil: " + failure);
   Topology topology = still->problem->topology();
   topology.on.resize(topology.stretches.size() + 1);
@@ -275,6 +276,10 @@ Started coil_on_plate(const scene::Scene& scene, const std::vector<std::string>&
 std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector<std::string>& keys,
                                     std::string& searched) {
   if (scene.friction_arm() > 0.0) return dragged_with_couple(scene, keys, searched);
+  if (scene.ends.guided()) {
+    searched = "with ends on sliders none that have left the plate are sought";
+    return {};
+  }
   if (scene.rod.extensible) return dragged_with_stretch(scene, keys, searched);
   constexpr double flat = 1e-6;  // [ρ]
   // Next to nothing; with more friction the plate holds the tail nearer to the coil, so that short tails need more.

@@ -31,6 +31,7 @@ double Loads::*field_of(const std::string& key, const scene::Scene& scene) {
   if (key == "load.thrust") return &Loads::thrust;
   if (key == "ends.shortening") return &Loads::shortening;
   if (key == "ends.twist") return &Loads::twist;
+  if (key == "ends.guide_offset") return &Loads::guide_offset;
   if (key == "rod.radius") return scene.friction_has_couple() ? &Loads::arm : &Loads::radius;
   if (key == "cylinder.friction") return &Loads::friction;
   if (key == "rod.axial_compliance") return &Loads::compliance;
@@ -54,6 +55,8 @@ Loads loads_of(const scene::Scene& scene) {
   loads.friction = scene.dragging_friction();
   loads.arm = scene.friction_arm();
   loads.compliance = scene.rod.compliance();
+  loads.guide_offset = scene.ends.guide_offset;
+  loads.guide_height = scene.plate ? scene.plate->height : 0.0;
   std::tie(loads.weight_x, loads.weight_y, loads.weight_z) = std::tuple_cat(scene.rod.weight);
   return loads;
 }
@@ -75,6 +78,7 @@ chain::RodKind rod_of(const scene::Scene& scene, bool spatial) {
   rod.left = end_kind(scene, scene.ends.left_kind());
   rod.right = end_kind(scene, scene.ends.right_kind());
   rod.infinite = scene.rod.infinite();
+  rod.guided = scene.ends.guided();
   rod.strut = !scene.has_cylinder;
   rod.obstacles = obstacle::obstacles_of(scene);
   if (!spatial && scene.plate)

@@ -260,9 +260,9 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
   std::string beyond;  // contacts that something in the scene is not built for
   for (const Successor& next : successors(event, shape, topology_, joint_places(x, p, shape))) {
     if (const char* key = missing_on(next.topology)) {
-      beyond = fmt::format("{} ({} is not built for {})", next.topology.text(), key,
-                           key == std::string_view("rod.extensible") ? "lines that friction stretches"
-                                                                     : "lines");
+      beyond =
+          fmt::format("{} ({} is not built for {})", next.topology.text(), key,
+                      key == std::string_view("rod.extensible") ? "lines that friction stretches" : "lines");
       continue;
     }
     continuation::Transition transition;

@@ -122,7 +122,7 @@ std::optional<Started> knot_start(const scene::Scene& scene, bool half, const st
 
 /// The first state that has left the plate; the flat coil, which the automatic rung starts with, where there is none.
 Started dragged_first(const scene::Scene& scene, const std::vector<std::string>& keys) {
-  if (scene.model.kind != scene::ModelKind::kirchhoff && scene.friction_arm() == 0.0)
+  if ((scene.model.kind != scene::ModelKind::kirchhoff && scene.friction_arm() == 0.0) || scene.ends.guided())
     return coil_on_plate(scene, keys);
   std::string searched;
   const std::vector<Started> states = dragged_states(scene, keys, searched);
@@ -153,6 +153,7 @@ std::optional<Started> followed_coil(const scene::Scene& scene, bool spatial, bo
 
 Started cold_start(const scene::Scene& asked, bool spatial, bool half, const std::vector<std::string>& keys) {
   const scene::Scene scene = scene::natural(asked);
+  spatial = spatial || scene.ends.guided();
   std::string failure;
   if (spatial && scene.slides()) return dragged_first(scene, keys);
   if (const double compliance = scene.rod.compliance();

@@ -22,7 +22,8 @@ bool carries_stretch(const Topology& topology, chain::Travel travel) {
 }
 
 std::string stretch_not_carried() {
-  return "rod.extensible: a rod that stretches is dragged at isolated touches and along lines that lie on the "
+  return "rod.extensible: a rod that stretches is dragged at isolated touches and along lines that lie on "
+         "the "
          "plate, not along lines where the friction stretches it: false leaves the stretch out";
 }
 

@@ -168,10 +168,23 @@ double jointed_moment(const End& end) {
 }
 double spin_error(const End& end) { return std::abs(rotation(end.section.q)(2, 0)); }
 
-void check_capstan_ends(const End (&ends)[2], const Scales& scales, CheckList& list) {
-  Largest pull, moment, clamp, spin;
+/// Distance of an end from the line that its slider moves along: parallel to the pull, at that distance from the axis on the side
+/// where a coil leaves, and at the plate's height.
+double guide_error(const End& end, const scene::Scene& scene) {
+  const Vector3d along = end.pull.normalized(), outward = end.side * along.cross(Vector3d::UnitZ());
+  const double height = scene.plate ? scene.plate->height : 0.0;
+  return std::max(std::abs(end.section.r.dot(outward) - scene.ends.guide_offset),
+                  std::abs(end.section.r.z() - height));
+}
+
+void check_capstan_ends(const End (&ends)[2], const scene::Scene& scene, const Scales& scales,
+                        CheckList& list) {
+  Largest pull, moment, clamp, spin, guide;
   for (const End& end : ends) {
-    pull.add((end.side * end.section.n - end.pull).norm() / scales.force);
+    const Vector3d off = end.side * end.section.n - end.pull;
+    // A slider takes what is across its line.
+    pull.add((scene.ends.guided() ? std::abs(off.dot(end.pull.normalized())) : off.norm()) / scales.force);
+    if (scene.ends.guided()) guide.add(guide_error(end, scene));
     if (end.joint.kind == JointKind::infinity) continue;
     if (end.kind == scene::EndKind::clamped) {
       clamp.add(clamp_error(end));
@@ -185,6 +198,8 @@ void check_capstan_ends(const End (&ends)[2], const Scales& scales, CheckList& l
   list.at_most("end_pull", pull.value(), tight, "internal force at the ends against the pulls, / max(1, T)");
   if (moment.any())
     list.at_most("end_moment", moment.value(), tight, "moment that the ends are free of, / max(1, sqrt(T))");
+  if (guide.any())
+    list.at_most("end_guide", guide.value(), tight, "distance of ends on sliders from their lines");
   if (spin.any()) list.at_most("end_spin", spin.value(), tight, "d1 of ends that cannot spin, along e_z");
   if (clamp.any())
     list.at_most("end_clamp", clamp.value(), tight, "frame of clamped ends against the pull and the plane");
@@ -213,7 +228,7 @@ void check_ends(const Solution& solution, const scene::Scene& scene, const Scale
                        {solution.joints.back(), last_section(solution.arcs.back()),
                         (solution.T + difference) * right, 1.0, scene.ends.right_kind()}};
   if (solution.has_cylinder) {
-    check_capstan_ends(ends, scales, list);
+    check_capstan_ends(ends, scene, scales, list);
   } else {
     check_strut_ends(ends, scales, list);
   }

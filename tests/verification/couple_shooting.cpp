@@ -29,7 +29,9 @@ struct Oracle {
   std::vector<Touch> touches;
   int size() const { return 11 + 2 * static_cast<int>(touches.size()); }
 
-  double stretch(const Vector3d& n, const Vector3d& t) const { return 1.0 + scene.rod.compliance() * n.dot(t); }
+  double stretch(const Vector3d& n, const Vector3d& t) const {
+    return 1.0 + scene.rod.compliance() * n.dot(t);
+  }
 
   /// t' = m×t/B, all of the section turns by u = (m − M t)/B + M t/C; r' = λ t, m' = λ n×t, λ = 1 + n·t/EA.
   Section along(Section at, double length) const {

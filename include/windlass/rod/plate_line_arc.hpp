@@ -40,9 +40,9 @@ class PlateLineArc final : public bvp::Arc {
  private:
   /// What stretch makes of an arc.
   struct Stretched {
-    double stretch, soft;  ///< λ and its derivative with n_a
-    double around;         ///< n_θ
-    double action;         ///< S a length, but for the twist
+    double stretch, soft;    ///< λ and its derivative with n_a
+    double around;           ///< n_θ
+    double action;           ///< S a length, but for the twist
     double drag, drag_by_n;  ///< n_a' over ω, and its derivative
   };
   Stretched stretched(const bvp::ArcPoint& at) const;

@@ -1,0 +1,149 @@
+// Rods that stretch while a cylinder slips along them, against what is known exactly and an integration of another kind.
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "couple_shooting.hpp"
+#include "observed_order.hpp"
+#include "windlass/equilibrium/equilibria.hpp"
+#include "windlass/equilibrium/record.hpp"
+#include "windlass/equilibrium/start.hpp"
+#include "windlass/verify/certificate.hpp"
+
+namespace {
+
+using namespace windlass;
+using equilibrium::Solution;
+
+scene::Scene dragged(double tension, double angle, double length, double compliance, scene::Travel travel) {
+  scene::Scene scene;
+  scene.name = "dragged";
+  scene.has_cylinder = true;
+  scene.load.tension = tension;
+  scene.load.angle = angle;
+  scene.rod.length = length;
+  scene.rod.extensible = true;
+  scene.rod.axial_stiffness = 1.0 / compliance;
+  scene.friction = 0.32;
+  scene.motion.sliding = scene::Sliding::up;
+  scene.plate.emplace();
+  scene.ends.travel = travel;
+  scene.model.tolerance = 1e-12;
+  return scene;
+}
+
+/// On isolated touches, one of them of the plate.
+scene::Scene on_touches(double compliance, scene::Travel travel) {
+  scene::Scene scene = dragged(0.3, 2.0 * M_PI, 2.0 * M_PI + 16.0, compliance, travel);
+  scene.ends.kind = scene::EndKind::clamped;
+  scene.model.kind = scene::ModelKind::kirchhoff;
+  return scene;
+}
+
+equilibrium::Started state_of(const scene::Scene& scene) {
+  return equilibrium::cold_start(scene, true, false, {"cylinder.friction"});
+}
+
+double drag_of(equilibrium::Started& state) {
+  return *equilibrium::record(*state.problem, state.x, state.p).F0;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(stretch_while_sliding)
+
+BOOST_AUTO_TEST_CASE(a_flat_coil_is_dragged_with_the_force_of_the_closed_form) {
+  // PHYSICS, "Planar capstan that stretches". Tails of 20 decay lengths: exp(−2 √T L_tail) is below the bound.
+  for (const double angle : {0.75 * M_PI, M_PI, 1.5 * M_PI, 2.0 * M_PI, 4.0 * M_PI})
+    for (const double T : {1.0, 3.0})
+      for (const double k : {0.02, 0.2})
+        for (const scene::Travel travel : {scene::Travel::blocked, scene::Travel::free}) {
+          const scene::Scene scene = dragged(T, angle, angle + 40.0 / std::sqrt(T), k, travel);
+          equilibrium::Started state = state_of(scene);
+          const Solution flat = equilibrium::record(*state.problem, state.x, state.p);
+          const double stretch = (1.0 + k * T) / std::sqrt(1.0 + k), tension = (stretch - 1.0) / k,
+                       beta = std::acos(tension / T);
+          const double exact = 2.0 * (tension * (0.5 * angle - beta) + T * std::sin(beta));
+          BOOST_TEST_CONTEXT("phi = " << angle << ", T = " << T << ", 1/EA = " << k
+                                      << ", F0 = " << *flat.F0) {
+            BOOST_TEST(flat.topology == "tail line tail");
+            BOOST_TEST(std::abs(*flat.F0 - 0.32 * exact) < 1e-10 * exact);
+            BOOST_TEST(std::abs(flat.plate_force - 0.32 * flat.R_tot) < 1e-12 * exact);
+            BOOST_TEST(std::abs(flat.travel_rate) + std::abs(flat.pull_difference) < 1e-12);
+            BOOST_TEST(state.problem->total_index(state.x, state.p) == 0);
+            const verify::Certificate certificate = verify::verify(flat, scene);
+            BOOST_TEST(certificate.passed(), verify::to_text(certificate));
+          }
+        }
+}
+
+BOOST_AUTO_TEST_CASE(touches_agree_with_shooting) {
+  for (const scene::Travel travel : {scene::Travel::blocked, scene::Travel::free})
+    for (const double k : {1.0 / 49.0, 0.2})
+      for (const double arm : {0.0, 2.0 / 7.0}) {
+        scene::Scene scene = on_touches(k, travel);
+        scene.rod_radius = arm;
+        equilibrium::Started state = state_of(scene);
+        const Solution solution = equilibrium::record(*state.problem, state.x, state.p);
+        const verify::Certificate certificate = verify::verify(solution, scene);
+        BOOST_TEST(certificate.passed(), verify::to_text(certificate));
+        const test::Dragged exact = test::shot_from_touches(solution, scene);
+        const double travelled =
+            travel == scene::Travel::free ? solution.travel_rate : solution.pull_difference;
+        BOOST_TEST_MESSAGE("1/EA " << k << " arm " << arm << " F0 " << *solution.F0 << " off by "
+                                   << *solution.F0 - exact.drag << ", travelled " << travelled << " off by "
+                                   << travelled - exact.travelled);
+        // The error of the meshes, asked for to 1e-12, and what shooting over decay lengths makes of rounding.
+        BOOST_TEST(std::abs(*solution.F0 - exact.drag) < 1e-10);
+        BOOST_TEST(std::abs(solution.R_tot - exact.contact_force) < 1e-10);
+        BOOST_TEST(std::abs(travelled - exact.travelled) < 1e-10);
+        BOOST_TEST(std::abs(*solution.F0 - solution.plate_force) < 1e-10);
+        BOOST_TEST(solution.stretch > 0.25 * k);
+        // The same state is none of a rod that stretches by a little more.
+        scene::Scene softer = scene;
+        softer.rod.axial_stiffness /= 1.0 + 1e-6;
+        BOOST_TEST(!verify::verify(solution, softer).passed());
+      }
+}
+
+BOOST_AUTO_TEST_CASE(a_stiff_rod_tends_to_the_one_that_does_not_stretch_at_the_rate_1_over_EA) {
+  scene::Scene rigid = on_touches(1.0, scene::Travel::free);
+  rigid.rod.extensible = false;
+  rigid.rod.axial_stiffness = HUGE_VAL;
+  equilibrium::Started limit = state_of(rigid);
+  const double none = drag_of(limit);
+  std::vector<double> slopes;
+  for (const double k : {0.04, 0.004, 0.0004}) {
+    equilibrium::Started state = state_of(on_touches(k, scene::Travel::free));
+    slopes.push_back((drag_of(state) - none) / k);
+  }
+  BOOST_TEST_MESSAGE("dF0/dk " << slopes[0] << " " << slopes[1] << " " << slopes[2]);
+  BOOST_TEST(std::abs(slopes[2]) > 1e-3);
+  // What is left falls with k, too.
+  BOOST_TEST((slopes[0] - slopes[1]) / (slopes[1] - slopes[2]) == 10.0, boost::test_tools::tolerance(0.2));
+}
+
+BOOST_AUTO_TEST_CASE(order_is_twice_the_number_of_stages) {
+  const scene::Scene scene = on_touches(0.1, scene::Travel::free);
+  equilibrium::Started found = state_of(scene);
+  const auto drag = [&](int stages, int elements) {
+    test::OnMeshes state = test::on_uniform_meshes(found, scene, stages, elements);
+    return *equilibrium::record(state.problem, state.x, found.p).F0;
+  };
+  test::check_order(drag(6, 64), drag);
+}
+
+BOOST_AUTO_TEST_CASE(lines_that_friction_would_stretch_are_refused) {
+  // A one-handed state at little friction, with lines on the cylinder that are no circles.
+  scene::Scene scene = dragged(1.01, 2.0 * M_PI, 2.0 * M_PI + 8.0, 0.02, scene::Travel::blocked);
+  scene.friction = 0.005;
+  scene.model.kind = scene::ModelKind::kirchhoff;
+  try {
+    state_of(scene);
+    BOOST_ERROR("it was not refused");
+  } catch (const equilibrium::NoEquilibrium& none) {
+    BOOST_TEST_MESSAGE(none.what());
+    BOOST_TEST(std::string(none.what()).find("rod.extensible") != std::string::npos, none.what());
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
