@@ -98,6 +98,10 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused_with_key_and_reason) {
       run_program({"pull", shipped_scene("capstan-vps-pom-plate"), "--out", "pull"}, folder.path());
   BOOST_TEST(pulled.status == 1);
   BOOST_TEST(contains(pulled.err, "rod.extensible"), pulled.err);
+  const Outcome guided =
+      run_program({"pull", shipped_scene("capstan-2pi-plate"), "--set", "ends.guide=slider"}, folder.path());
+  BOOST_TEST(guided.status == 1);
+  BOOST_TEST(contains(guided.err, "ends.guide"), guided.err);
   refused("capstan-2pi", {"ends.guide_offset=1.2"}, "ends.guide_offset = 1.2", "needs ends.guide");
   refused("capstan-2pi", {"ends.guide=slider", "rod.length=inf"}, "ends.guide", "rod.length = \"inf\"");
   refused("strut-clamped", {"ends.guide=slider"}, "ends.guide", "without [cylinder]");
