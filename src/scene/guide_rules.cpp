@@ -14,10 +14,6 @@ void check_guides(const Document& document, const Scene& scene) {
     refuse("must be \"none\" without [cylinder]: the ends of a strut are on e_x as they are");
   if (scene.rod.infinite()) refuse("must be \"none\" with rod.length = \"inf\": there is no end to guide");
   if (scene.knot.tied()) refuse("must be \"none\" for a knot: it is relaxed with free ends");
-  if (scene.strand_radius() > 0.0)
-    refuse(
-        "must be \"none\" for a rod that may touch itself: not built; rod.self_contact = false leaves that "
-        "out");
   if (scene.model.kind == ModelKind::closed_form || scene.model.kind == ModelKind::planar)
     forbid(document, "model.kind", "must be \"auto\" or \"kirchhoff\" with ends.guide = \"slider\"");
   if (scene.plate && !scene.slides())

@@ -106,7 +106,6 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused_with_key_and_reason) {
   refused("capstan-2pi", {"ends.guide=slider", "rod.length=inf"}, "ends.guide", "rod.length = \"inf\"");
   refused("strut-clamped", {"ends.guide=slider"}, "ends.guide", "without [cylinder]");
   refused("clove-hitch", {"ends.guide=slider"}, "ends.guide", "for a knot");
-  refused("capstan-2pi-thick", {"ends.guide=slider"}, "ends.guide", "may touch itself");
   refused("capstan-2pi", {"ends.guide=rail", "rod.length=20"}, "ends.guide", "\"slider\"");
   refused("capstan-2pi", {"rod.weight=[0, 0, -1]"}, "rod.weight_z = -1",
           "nothing carries weight along its axis");

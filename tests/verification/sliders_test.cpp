@@ -176,4 +176,27 @@ BOOST_AUTO_TEST_CASE(a_flat_coil_on_a_plate_slides_between_sliders) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(thick_coils_between_sliders_are_certified_still_and_sliding) {
+  scene::Scene scene = on_sliders(2.0, 2.0 * M_PI, 30.0);
+  scene.rod_radius = 2.0 / 7.0;
+  scene.self_contact = true;
+  scene.model.tolerance = 1e-10;
+  const Solution still = equilibrium::solve(scene);
+  const verify::Certificate at_rest = verify::verify(still, scene);
+  BOOST_TEST(at_rest.passed(), verify::to_text(at_rest));
+  BOOST_TEST(still.self_force > 0.1);
+  scene.friction = 0.32;
+  scene.motion = {scene::Sliding::up, false};
+  scene.plate.emplace();
+  scene.ends.travel = scene::Travel::blocked;
+  const Solution s = equilibrium::solve(scene);
+  const verify::Certificate certificate = verify::verify(s, scene);
+  BOOST_TEST(certificate.passed(), verify::to_text(certificate));
+  // One tail passes below the other, and its slider holds it at the plate's height: what the cylinder drags with the plate and the
+  // sliders carry.
+  const double sliders = s.arcs.back().n(2, s.arcs.back().n.cols() - 1) - s.arcs.front().n(2, 0);
+  BOOST_TEST(std::abs(*s.F0 - s.plate_force + sliders) < 1e-10);
+  BOOST_TEST(std::abs(sliders) > 0.01);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
