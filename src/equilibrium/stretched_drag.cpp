@@ -11,12 +11,13 @@ using chain::Stretch;
 
 bool carries_stretch(const Topology& topology, chain::Travel travel) {
   const std::vector<Stretch>& all = topology.stretches;
-  bool lines = false, tilted = false;
+  bool lines = false, tilted = false, pressed = false;
   for (int i = 0; i < static_cast<int>(all.size()); ++i) {
     lines = lines || all[i] == Stretch::line;
     tilted = tilted || (all[i] == Stretch::line && !topology.lies_flat(i));
+    pressed = pressed || (i > 0 && topology.lies_flat(i - 1) && topology.lies_flat(i));
   }
-  if (tilted) return false;
+  if (tilted || pressed) return false;
   const std::vector<Stretch> flat_coil{Stretch::tail, Stretch::line, Stretch::tail};
   return !lines || travel != chain::Travel::free || all == flat_coil;
 }

@@ -8,8 +8,9 @@
 /// Rods that stretch while a cylinder slips along them (PHYSICS, "Stretch while sliding").
 namespace windlass::equilibrium {
 
-/// Are the equations of a rod that stretches built for these contacts? Not along lines where friction acts along the rod: those
-/// that leave the plate, and in a rod that runs along itself all but those of the flat coil, which by its symmetry does not.
+/// Are the equations of a rod that stretches built for these contacts? Not along lines where friction, or another strand,
+/// acts along the rod: those that leave the plate, and in a rod that runs along itself all but those of the flat coil, which by
+/// its symmetry does not.
 bool carries_stretch(const Topology& topology, chain::Travel travel);
 
 /// What is said of a scene whose states would need it elsewhere.
