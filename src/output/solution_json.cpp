@@ -131,7 +131,8 @@ ordered_json sliders_json(const Solution& solution) {
     const double side = at_end ? 1.0 : -1.0, half = 0.5 * solution.phi;
     const Eigen::Vector3d outward(side * std::sin(half), -std::cos(half), 0.0),
         force = side * arc.n.col(at_end ? arc.n.cols() - 1 : 0);
-    return ordered_json{{"across", finite_or_null(force.dot(outward))}, {"axial", finite_or_null(force.z() + 0.0)}};
+    return ordered_json{{"across", finite_or_null(force.dot(outward))},
+                        {"axial", finite_or_null(force.z() + 0.0)}};
   };
   return {{"left", held(solution.arcs.front(), false)}, {"right", held(solution.arcs.back(), true)}};
 }
