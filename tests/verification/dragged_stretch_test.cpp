@@ -1,4 +1,7 @@
 // Rods that stretch while a cylinder slips along them, against what is known exactly and an integration of another kind.
+#include <Eigen/Geometry>
+#include <array>
+#include <boost/numeric/odeint.hpp>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
@@ -50,7 +53,70 @@ double drag_on_softened(equilibrium::Started& state) {
 
 }  // namespace
 
+namespace {
+
+using Eigen::Vector3d;
+
+/// A section of a line contact on a cylinder that slips, B = 1, with what PHYSICS, "Other lines, not built", says of it.
+struct TiltedLine {
+  double k, friction, travel;
+  Vector3d r, t, m, n;
+
+  Vector3d outward() const { return Vector3d(r.x(), r.y(), 0.0).normalized(); }
+  double stretch() const { return 1.0 + k * n.dot(t); }
+  Vector3d slip() const { return (Vector3d::UnitZ() - travel * stretch() * t).normalized(); }
+  /// n_N without friction, and w: n_N = ν − w p.
+  std::pair<double, double> normal_force() const {
+    const Vector3d N = outward(), across = t.cross(N);
+    const double c = t.dot(Vector3d::UnitZ().cross(N)), s = t.z(), lambda = stretch();
+    const double a = m.dot(t) - 3.0 * lambda * s * c, divisor = lambda * (1.0 + k * c * c * c * c);
+    const double lambda_rate = -k * m.dot(N) * (a * c * c + n.dot(across)) / (1.0 + k * c * c * c * c);
+    return {(m.dot(N) * a + lambda_rate * c * c) / lambda, k * friction * c * c * slip().dot(t) / divisor};
+  }
+  double pressure() const {
+    const auto [nu, w] = normal_force();
+    return (nu - n.dot(outward())) / w;
+  }
+};
+
+}  // namespace
+
 BOOST_AUTO_TEST_SUITE(stretch_while_sliding)
+
+BOOST_AUTO_TEST_CASE(a_pressure_with_the_layers_of_physics_keeps_a_rod_on_the_cylinder) {
+  // The equations of the rod in space know no cylinder: with p = (ν − n_N)/w the rod stays on it. Against the layer's growth.
+  TiltedLine line{0.1, 0.4, 0.25, Vector3d::UnitX(), {}, {}, {}};
+  constexpr double psi = 0.5, bend = 0.2, twist = 0.1, pressed = 1.5;
+  line.t = {0.0, std::cos(psi), std::sin(psi)};
+  const Vector3d across = line.t.cross(line.r);
+  line.n = 0.3 * across + 2.0 * line.t;
+  line.m = bend * line.r - line.stretch() * std::pow(std::cos(psi), 2) * across + twist * line.t;
+  const auto [nu, w] = line.normal_force();
+  line.n += (nu - w * pressed) * line.r;
+  BOOST_TEST(w > 0.0);
+  using State = std::array<double, 12>;
+  const auto rates = [&](const State& x, State& rate, double) {
+    TiltedLine at = line;
+    at.r = Vector3d(&x[0]), at.t = Vector3d(&x[3]), at.m = Vector3d(&x[6]), at.n = Vector3d(&x[9]);
+    Eigen::Map<Vector3d>{&rate[0]} = at.stretch() * at.t;
+    Eigen::Map<Vector3d>{&rate[3]} = at.m.cross(at.t);
+    Eigen::Map<Vector3d>{&rate[6]} = at.stretch() * at.n.cross(at.t);
+    Eigen::Map<Vector3d>{&rate[9]} = -at.pressure() * (at.outward() + at.friction * at.slip());
+  };
+  State x;
+  Eigen::Map<Vector3d>{&x[0]} = line.r;
+  Eigen::Map<Vector3d>{&x[3]} = line.t;
+  Eigen::Map<Vector3d>{&x[6]} = line.m;
+  Eigen::Map<Vector3d>{&x[9]} = line.n;
+  boost::numeric::odeint::runge_kutta_fehlberg78<State> stepper;
+  constexpr int steps = 2000;
+  constexpr double length = -0.4;  // a tenth of w a step
+  for (int i = 0; i < steps; ++i) {
+    stepper.do_step(rates, x, 0.0, length / steps);
+    BOOST_TEST_REQUIRE(std::abs(std::hypot(x[0], x[1]) - 1.0) < 1e-12);
+    BOOST_TEST_REQUIRE(std::abs(x[0] * x[3] + x[1] * x[4]) < 1e-12);
+  }
+}
 
 BOOST_AUTO_TEST_CASE(a_flat_coil_is_dragged_with_the_force_of_the_closed_form) {
   // PHYSICS, "Planar capstan that stretches". Tails of 20 decay lengths: exp(−2 √T L_tail) is below the bound.
