@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(a_pressure_with_the_layers_of_physics_keeps_a_rod_on_the_cy
   Eigen::Map<Vector3d>{&x[9]} = line.n;
   boost::numeric::odeint::runge_kutta_fehlberg78<State> stepper;
   constexpr int steps = 2000;
-  constexpr double length = -0.4;  // a tenth of w a step
+  constexpr double length = -0.4;  // 0.04 w a step
   for (int i = 0; i < steps; ++i) {
     stepper.do_step(rates, x, 0.0, length / steps);
     BOOST_TEST_REQUIRE(std::abs(std::hypot(x[0], x[1]) - 1.0) < 1e-12);
