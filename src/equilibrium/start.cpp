@@ -122,7 +122,7 @@ std::optional<Started> knot_start(const scene::Scene& scene, bool half, const st
 
 /// The first state that has left the plate; the flat coil, which the automatic rung starts with, where there is none.
 Started dragged_first(const scene::Scene& scene, const std::vector<std::string>& keys) {
-  if ((scene.model.kind != scene::ModelKind::kirchhoff && scene.friction_arm() == 0.0) || scene.ends.guided())
+  if (scene.model.kind != scene::ModelKind::kirchhoff && scene.friction_arm() == 0.0)
     return coil_on_plate(scene, keys);
   std::string searched;
   const std::vector<Started> states = dragged_states(scene, keys, searched);

@@ -176,6 +176,22 @@ BOOST_AUTO_TEST_CASE(a_flat_coil_on_a_plate_slides_between_sliders) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_rod_that_has_left_its_plate_slides_between_sliders) {
+  scene::Scene scene = on_sliders(0.3, 2.0 * M_PI, 24.0);
+  scene.ends.kind = scene::EndKind::clamped;
+  scene.ends.travel = scene::Travel::blocked;
+  scene.friction = 0.32;
+  scene.motion.sliding = scene::Sliding::up;
+  scene.plate.emplace();
+  scene.model.kind = scene::ModelKind::kirchhoff;
+  const Solution s = between_sliders(scene, false);
+  BOOST_TEST(s.topology == "tail touch gap touch gap touch:2 tail");
+  const verify::Certificate certificate = verify::verify(s, scene);
+  BOOST_TEST(certificate.passed(), verify::to_text(certificate));
+  const double sliders = s.arcs.back().n(2, s.arcs.back().n.cols() - 1) - s.arcs.front().n(2, 0);
+  BOOST_TEST(std::abs(*s.F0 - s.plate_force + sliders) < 1e-10);
+}
+
 BOOST_AUTO_TEST_CASE(thick_coils_between_sliders_are_certified_still_and_sliding) {
   scene::Scene scene = on_sliders(2.0, 2.0 * M_PI, 30.0);
   scene.rod_radius = 2.0 / 7.0;
