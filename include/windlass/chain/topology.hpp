@@ -100,6 +100,7 @@ struct RodKind {
   bool strut = false;            ///< no cylinder, the ends on e_x
   bool under_thrust = false;     ///< strut: thrust given, else shortening
   Travel travel = Travel::none;  ///< of a rod on a cylinder that slips along it
+  bool guided = false;           ///< the ends of a rod on a cylinder are on sliders
   double pull_angle =
       NAN;  ///< between the pulls, for a rod that they leave free to turn [rad]; NaN: it varies
   double bending_stiffness = 1.0;  ///< B, of bending in the plane that the flat rod lies in
