@@ -9,11 +9,11 @@
 /// Knots below a plate, and those that a cylinder slips through (PHYSICS, "Steady sliding").
 namespace windlass::equilibrium {
 
-/// A knot without friction, on the full chain and at any height, put under the plate: its highest place touches it, and the
-/// cylinder drags by a little friction; continuation in it leads to the scene's.
-/// @param still    in contact with the cylinder and itself only
+/// A knot of the scene below its plate, on the full chain. Without a cylinder that slides: where it is, or so far down that it is
+/// clear of the plate, which no force presses it on. Else the knot without friction, loose, put under the plate that its highest
+/// place then touches; the cylinder's friction grows from next to nothing to the scene's, then its tension.
 /// @param failure  why there is none
-std::optional<Started> knot_under_plate(const Started& still, const scene::Scene& scene, double friction,
-                                        std::string& failure);
+std::optional<Started> knot_on_plate(const scene::Scene& scene, const std::vector<std::string>& keys,
+                                     std::string& failure);
 
 }  // namespace windlass::equilibrium
