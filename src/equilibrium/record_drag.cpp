@@ -32,6 +32,11 @@ bool begins_flat(const Topology& topology, const std::vector<int>& links, std::s
          topology.touches_flat(links[k]);
 }
 
+/// What another strand pushes a joint with.
+Vector3d push_of_strand(const Solution& state, const JointRecord& joint) {
+  return joint.partner < 0 ? Vector3d::Zero() : Vector3d(joint.strand_force * strand_direction(state, joint));
+}
+
 /// mu N d_z of the contacts where the rod lies on a plate, too: it takes the friction on the spot. @returns the sum
 double drag_on_plate(Solution& state, const Topology& topology, const std::vector<int>& links,
                      double upward) {
@@ -47,12 +52,19 @@ double drag_on_plate(Solution& state, const Topology& topology, const std::vecto
   return sum;
 }
 
-/// What another strand pushes a joint with.
-Vector3d push_of_strand(const Solution& state, const JointRecord& joint) {
-  return joint.partner < 0 ? Vector3d::Zero() : Vector3d(joint.strand_force * strand_direction(state, joint));
+/// What strands push lines with that lie on cylinder and plate, along the axis: it goes straight to the plate. @returns the sum
+double push_on_plate(Solution& state, const Topology& topology, const std::vector<int>& links) {
+  double sum = 0.0;
+  for (std::size_t k = 1; k < state.arcs.size(); ++k) {
+    if (!topology.lies_flat(links[k - 1]) || !topology.lies_flat(links[k])) continue;
+    const double push = push_of_strand(state, state.joints[k])(2);
+    state.joints[k].plate_force += push;
+    sum += push;
+  }
+  return sum;
 }
 
-/// The same of the other contacts: what they take of the force along the axis.
+/// mu N d_z of the other contacts: what they take of the force along the axis.
 double axial_drag(const Solution& state, const Topology& topology, const std::vector<int>& links) {
   double sum = 0.0;
   for (std::size_t k = 0; k < state.arcs.size(); ++k) {
@@ -106,7 +118,7 @@ void record_drag(const RodProblem& problem, const Vector& x, const contact::Load
   const double upward = *scene.friction / std::sqrt(1.0 + out.travel_rate * out.travel_rate);
   const std::vector<int> links = links_of(out, problem, x, loads);
   const double on_plate = drag_on_plate(out, problem.topology(), links, upward);
-  out.plate_force += on_plate;
+  out.plate_force += on_plate + push_on_plate(out, problem.topology(), links);
   out.F0 = on_plate + axial_drag(out, problem.topology(), links);
 }
 

@@ -26,6 +26,23 @@ std::optional<Successor> strand_passes_edge(int link, Strip strip) {
   const int obstacle = strip.on[edge].obstacle;
   std::swap(strip.on[edge], strip.on[other]);
   strip.on[edge].obstacle = strip.on[other].obstacle = obstacle;
+  if (chain::Seat& free = strip.on[edge]; line && free.flat >= 0) free.obstacle = free.flat;  // in the plate
+  measure_parts(strip);
+  return strip.successor();
+}
+
+/// A touch with a strand that presses on a line passes the place where the line leaves a plate.
+std::optional<Successor> strand_passes_lift_off(int link, Strip strip) {
+  const auto flat = [&](int part) { return strip.is_line(part) ? strip.on[part].flat : -1; };
+  const bool before = strip.on[link].strand != 0, after = strip.on[link + 1].strand != 0;
+  const int beside = before ? link + 1 : link - 1;  // beyond the place
+  if (before == after || !strip.is_line(link) || !strip.is_line(link - 1) || !strip.is_line(link + 1) ||
+      flat(link) == flat(beside))
+    return std::nullopt;
+  const int inside = flat(beside), behind = flat(link + 1);
+  std::swap(strip.on[link], strip.on[link + 1]);
+  strip.on[link].flat = inside, strip.on[link + 1].flat = behind;
+  strip.parts[link].fresh = true;
   measure_parts(strip);
   return strip.successor();
 }
@@ -103,6 +120,7 @@ int new_strand(const Strip& strip) {
 std::optional<Successor> after_length_beside_strand(int link, const Strip& strip) {
   if (const auto met = touches_meet(link, strip)) return met;
   if (const auto passed = touches_pass(link, strip)) return passed;
+  if (const auto passed = strand_passes_lift_off(link, strip)) return passed;
   return strand_passes_edge(link, strip);
 }
 

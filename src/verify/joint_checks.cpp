@@ -59,6 +59,11 @@ double judged_between(const Solution& solution, std::size_t k, const Scales& sca
              : force / scales.force;
 }
 
+/// Is an arc a line on the cylinder that lies in the plate, too?
+bool lines_on_plate(const ArcRecord& arc, const scene::Scene& scene) {
+  return arc.kind == ArcKind::line && on_plate(arc, scene);
+}
+
 }  // namespace
 
 void check_joints(const Solution& solution, const scene::Scene& scene, const Scales& scales,
@@ -89,9 +94,8 @@ void check_joints(const Solution& solution, const scene::Scene& scene, const Sca
       const Vector3d outward = shape ? shape->outward(after.r) : Vector3d(Vector3d::Constant(NAN));
       if (shape) {
         const ArcRecord &left = solution.arcs[k - 1], &right = solution.arcs[k];
-        const bool flat[] = {on_plate(left, scene), on_plate(right, scene)};
-        const bool held = (flat[0] && left.kind == equilibrium::ArcKind::line) ||
-                          (flat[1] && right.kind == equilibrium::ArcKind::line) || (flat[0] && flat[1]);
+        const bool held = lines_on_plate(left, scene) || lines_on_plate(right, scene) ||
+                          (on_plate(left, scene) && on_plate(right, scene));
         jump += joint.force * (held ? shape->beside_plate() : *shape).push(after.r, tangent(after));
         turn += joint.force * shape->couple(after.r, tangent(after));
       }
@@ -101,7 +105,13 @@ void check_joints(const Solution& solution, const scene::Scene& scene, const Sca
     if (joint.partner >= 0) {
       const Vector3d e = equilibrium::strand_direction(solution, joint);
       const JointRecord& other = solution.joints[static_cast<std::size_t>(joint.partner)];
-      jump += joint.strand_force * e;
+      Vector3d push = joint.strand_force * e;
+      if (lines_on_plate(solution.arcs[k - 1], scene) && lines_on_plate(solution.arcs[k], scene)) {
+        // The plate takes what is towards it.
+        const double side = scene.plate->side == scene::PlateSide::above ? 1.0 : -1.0;
+        push.z() = side * std::min(side * push.z(), 0.0);
+      }
+      jump += push;
       apart.add(std::abs((joint.r - other.r).norm() - 2.0 * scene.rod_radius));
       apart.add(std::abs(joint.strand_force - other.strand_force) / scales.force);
       along.add(std::abs(e.dot(tangent(after))) * distance_that_counts(solution, k));
