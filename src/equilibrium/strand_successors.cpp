@@ -186,24 +186,27 @@ double foot(const chain::Profile& profile, double s, double guess, bool mirrored
 
 namespace {
 
-/// A touch stays, and beside it the strands meet, too: where its curvature is lost and the next derivative of the distance is not.
+/// A touch stays, and beside it the strands meet, too: where its curvature is lost and the next derivative of the distance is not. The
+/// strands are apart between the two, or these are the ends of a line.
 std::vector<Successor> strands_meet_beside(int j, const Strip& strip, const chain::Profile& profile) {
-  const int other = partner(strip, j);
+  const int other = partner(strip, j), fresh = new_strand(strip);
   const bool mirrored = strip.on[j].strand != strip.on[other].strand;
   const double unit = profile.unit_length;
   std::vector<Successor> out;
-  for (const double length : {0.02, 0.01, 0.04, 0.005})
-    for (const double side : {1.0, -1.0}) {
-      const double s = strip.s[j] + side * length * unit;
-      const double met = foot(profile, s, strip.s[other], mirrored);
-      Strip next = strip;
-      add_pair(next, s, met, mirrored, false, {0, new_strand(strip)});
-      for (const auto& [one, two] : {std::pair(s, strip.s[j]), std::pair(met, strip.s[other])}) {
-        auto& part = next.parts[next.part_at(0.5 * (one + two))];
-        part.fresh = true;
+  for (const int line : {0, fresh})
+    for (const double length : {0.02, 0.01, 0.04, 0.005})
+      for (const double side : {1.0, -1.0}) {
+        const double s = strip.s[j] + side * length * unit;
+        const double met = foot(profile, s, strip.s[other], mirrored);
+        Strip next = strip;
+        if (line != 0) next.on[j].line = line, next.on[other].line = -line;
+        add_pair(next, s, met, mirrored, false, {.strand = fresh, .line = line});
+        for (const auto& [one, two] : {std::pair(s, strip.s[j]), std::pair(met, strip.s[other])}) {
+          auto& part = next.parts[next.part_at(0.5 * (one + two))];
+          part.fresh = true;
+        }
+        out.push_back(next.successor());
       }
-      out.push_back(next.successor());
-    }
   return out;
 }
 
