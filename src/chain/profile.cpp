@@ -140,15 +140,19 @@ void unroll(VectorXd& angle, double before) {
   }
 }
 
-/// Makes angles and headings continuous along the chain. The place of a line contact is unrolled already; there the
-/// heading is the place, to less than half a turn.
-void unroll(std::vector<Piece>& pieces) {
+/// Makes angles and headings continuous along the chain. The place of a line contact is unrolled already, but on a plate beside a
+/// cylinder; there the heading is the place, to less than half a turn.
+void unroll(std::vector<Piece>& pieces, const obstacle::Set& obstacles) {
+  const auto counts_turns = [&](const Piece& piece) {
+    return piece.stretch == Stretch::line &&
+           (obstacles[0].curvature() == 0.0 || obstacles[piece.obstacle].curvature() != 0.0);
+  };
   double heading =
       pieces.front().stretch == Stretch::line ? pieces.front().angle(0) : pieces.front().heading(0);
   for (Piece& piece : pieces) {
     unroll(piece.heading, heading);
     heading = piece.heading(piece.heading.size() - 1);
-    if (piece.stretch != Stretch::line) unroll(piece.angle, piece.angle(0));
+    if (!counts_turns(piece)) unroll(piece.angle, piece.angle(0));
   }
 }
 
@@ -297,7 +301,7 @@ Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod
   for (int i = 0; i < chain.link_count(); ++i)
     out.pieces.push_back(sample_link(chain, rod, x, loads, i, topology));
   fill_welds(chain, x, out.pieces);
-  unroll(out.pieces);
+  unroll(out.pieces, out.obstacles);
   add_contacts(chain, topology, x, loads, out);
   return out;
 }

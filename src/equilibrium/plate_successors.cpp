@@ -94,8 +94,10 @@ std::vector<Successor> change_places(const Meeting& at) {
   next.s[outer] = at.beyond(inner, 0.05);
   out.push_back(next.successor());
   // What is hardly bent over the cylinder stays where it is.
+  const int before = flat ? outer : inner, after = flat ? inner : outer;
   for (const double length : {1e-2, 1e-3}) {
-    next.s[outer] = strip.s[outer], next.s[inner] = at.beyond(outer, -length);
+    next.s[after] = strip.s[before];
+    next.s[before] = at.beyond(before, flat ? length : -length);
     out.push_back(next.successor());
   }
   return out;

@@ -52,13 +52,15 @@ double drag_on_plate(Solution& state, const Topology& topology, const std::vecto
   return sum;
 }
 
-/// What strands push lines with that lie on cylinder and plate, along the axis: it goes straight to the plate. @returns the sum
+/// What strands push lines with that lie on cylinder and plate, or their edges at an event, along the axis: it goes straight to the
+/// plate. @returns the sum
 double push_on_plate(Solution& state, const Topology& topology, const std::vector<int>& links) {
   double sum = 0.0;
   for (std::size_t k = 1; k < state.arcs.size(); ++k) {
-    if (!topology.lies_flat(links[k - 1]) || !topology.lies_flat(links[k])) continue;
-    const double push = push_of_strand(state, state.joints[k])(2);
-    state.joints[k].plate_force += push;
+    JointRecord& joint = state.joints[k];
+    if (joint.obstacle != 0 || !(topology.lies_flat(links[k - 1]) || topology.lies_flat(links[k]))) continue;
+    const double push = push_of_strand(state, joint)(2);
+    joint.plate_force += push;
     sum += push;
   }
   return sum;

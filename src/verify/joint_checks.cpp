@@ -106,8 +106,9 @@ void check_joints(const Solution& solution, const scene::Scene& scene, const Sca
       const Vector3d e = equilibrium::strand_direction(solution, joint);
       const JointRecord& other = solution.joints[static_cast<std::size_t>(joint.partner)];
       Vector3d push = joint.strand_force * e;
-      if (lines_on_plate(solution.arcs[k - 1], scene) && lines_on_plate(solution.arcs[k], scene)) {
-        // The plate takes what is towards it.
+      const ArcRecord &left = solution.arcs[k - 1], &right = solution.arcs[k];
+      if (joint.obstacle == 0 && on_plate(left, scene) && on_plate(right, scene) &&
+          (lines_on_plate(left, scene) || lines_on_plate(right, scene))) {  // it takes what is towards it
         const double side = scene.plate->side == scene::PlateSide::above ? 1.0 : -1.0;
         push.z() = side * std::min(side * push.z(), 0.0);
       }
