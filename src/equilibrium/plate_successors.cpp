@@ -160,6 +160,30 @@ std::vector<Successor> line_reaches_or_leaves(const Meeting& at) {
   return {};
 }
 
+/// Beside a line on cylinder and plate its end on the one meets its end on the other: what is between, a line of the cylinder or a
+/// free stretch in the plate, gives way to its like.
+std::vector<Successor> ends_change_places(const Meeting& at) {
+  const Strip& strip = at.strip;
+  const int link = at.link, flat = at.tail();
+  if (!strip.is_line(flat) || strip.on[flat].flat < 0 || strip.is_line(at.line()) ||
+      (strip.is_line(link) && strip.on[link].flat >= 0) || strip.on[at.inner()].strand != 0 ||
+      strip.on[at.outer()].strand != 0)
+    return {};
+  const bool line = strip.is_line(link);
+  if (!line && !at.on_plate(at.inner())) return {};
+  const chain::Seat cylinder{strip.on[flat].obstacle}, plate{strip.on[flat].flat};
+  Strip next = strip;
+  next.parts[link] = {line ? Stretch::gap : Stretch::line, next.parts[link].source, true};
+  next.on[at.inner()] = line ? plate : cylinder;
+  std::vector<Successor> out;
+  for (const double length : {0.05, 1e-2, 2e-3}) {
+    next.s[at.inner()] = at.beyond(at.outer(), -length);
+    out.push_back(next.successor());
+    out.back().beside = true;
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<Successor> flat_line_begins_or_ends(int link, const Profile& profile, const Strip& strip) {
@@ -167,6 +191,7 @@ std::vector<Successor> flat_line_begins_or_ends(int link, const Profile& profile
   if (strip.half || link < 1 || link >= last) return {};
   for (const bool rightward : {true, false}) {
     const Meeting at{profile, strip, link, rightward};
+    if (const auto changed = ends_change_places(at); !changed.empty()) return changed;
     if (!at.lies_flat()) continue;
     std::vector<Successor> out;
     if (strip.is_line(at.line()))

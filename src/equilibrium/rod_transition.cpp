@@ -92,14 +92,17 @@ bool settle_beside(Entry& entry, const std::vector<double>& offsets) {
   return false;
 }
 
-/// The same, a touch in the place of a line on a plane that has no length left: it holds on one side of the event, from
-/// where its curvature is that at which it gives way (`least_curvature`).
-bool settle_touch(Entry& entry) {
+/// The same, on either side of the event. @param parts  of p(0), by how far
+bool settle_on_either_side(Entry& entry, std::initializer_list<double> parts) {
   std::vector<double> offsets;
-  for (const double offset : {1e-4, 4e-4, 2e-3, 1e-2})
+  for (const double offset : parts)
     for (const double sign : {-1.0, 1.0}) offsets.push_back(sign * offset * std::abs(entry.p(0)));
   return settle_beside(entry, offsets);
 }
+
+/// The same, a touch in the place of a line on a plane that has no length left: it holds on one side of the event, from
+/// where its curvature is that at which it gives way (`least_curvature`).
+bool settle_touch(Entry& entry) { return settle_on_either_side(entry, {1e-4, 4e-4, 2e-3, 1e-2}); }
 
 /// Link of a line on a plane that begins or ends at the event, in `lines`; −1: it is none.
 int straight_line(const RodProblem& lines, int link) {
@@ -232,6 +235,8 @@ std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const 
       entered = open_in_turn(guess, next.opened, most_together, event.redrawn, guess.p(0));
       return true;
     });
+    Entry near = guess;
+    if (!entered && next.beside && settle_on_either_side(near, {1e-3, 4e-3, 1.6e-2, 4e-2})) entered = near;
     return entered;
   }
   Entry beside = guess;
