@@ -156,6 +156,16 @@ void unroll(std::vector<Piece>& pieces, const obstacle::Set& obstacles) {
   }
 }
 
+/// Does a stretch lie in a plate from a touch of it to one of cylinder and plate? It carries no force along the axis.
+bool held_in_plate(const RodKind& rod, const Topology& topology, int link) {
+  const auto on_plate = [&](int joint) {
+    return topology.seat(joint).strand == 0 && topology.seat(joint).obstacle > 0 &&
+           rod.obstacles[topology.obstacle(joint)].curvature() == 0.0;
+  };
+  return topology.stretches[link] == Stretch::gap && ((on_plate(link) && topology.touches_flat(link + 1)) ||
+                                                      (topology.touches_flat(link) && on_plate(link + 1)));
+}
+
 /// Arclengths of the samples of a link.
 void place_samples(const Chain& chain, const VectorXd& x, const Loads& loads, int link,
                    const Chain::Placed& placed, const bvp::ArcSamples& samples, Piece& piece) {
@@ -227,6 +237,7 @@ Piece sample_link(const Chain& chain, const RodKind& rod, const VectorXd& x, con
   } else {
     Vector3d n = Vector3d::Zero(), start = Vector3d::Zero();
     n.head(placed.n.size()) = placed.n;
+    if (held_in_plate(rod, topology, link)) n(2) = 0.0;  // but for rounding, over the cube of its length
     const JointKind before = chain.joint(link).kind();
     if ((before != JointKind::end && before != JointKind::infinity) || rod.strut) {
       start.head(placed.left.x.size()) = placed.left.x;

@@ -1,19 +1,19 @@
 #include "knot_on_plate.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "attempt.hpp"
 #include "strip.hpp"
-#include "windlass/scene/keys.hpp"
+#include "windlass/equilibrium/contact_events.hpp"
 
 namespace windlass::equilibrium {
 
 using chain::Piece;
 
 namespace {
-
-constexpr int plate = 1;  // its place among the obstacles
 
 /// The section of a rod that is farthest towards the plate.
 struct Farthest {
@@ -57,7 +57,8 @@ std::optional<Started> beside_plate(const Started& still, const scene::Scene& sc
   const double towards = scene.plate->side == scene::PlateSide::above ? 1.0 : -1.0;
   const chain::Profile shape = still.problem->profile(still.x, still.p);
   const double room = towards * scene.plate->height - farthest_of(shape, towards).height - clear;
-  auto out = lifted(still, shape, strip_of(still, shape).successor(), towards * std::min(room, 0.0), scene, keys);
+  auto out =
+      lifted(still, shape, strip_of(still, shape).successor(), towards * std::min(room, 0.0), scene, keys);
   if (!out) failure = "Newton did not converge on the knot moved along the axis";
   return out;
 }
@@ -69,6 +70,7 @@ std::optional<Started> under_plate(const Started& still, const scene::Scene& sce
   Strip strip = strip_of(still, shape);
   if (strip.is_line(top.link))
     return failure = "the highest place of the knot lies on the cylinder", std::nullopt;
+  constexpr int plate = 1;  // its place among the obstacles
   strip.cut(top.link, top.s, {plate});
   const Successor next = strip.successor();
   auto out = lifted(still, shape, next, scene.plate->height - top.height, scene, {"cylinder.friction"});
@@ -76,11 +78,26 @@ std::optional<Started> under_plate(const Started& still, const scene::Scene& sce
   return out;
 }
 
+/// The same state on the plate as it is. Nothing where that does not reach as far as it is touched.
+std::optional<Started> within_rim(const Started& endless, const scene::Scene& scene,
+                                  const std::vector<std::string>& keys, std::string& failure) {
+  const auto problem =
+      std::make_shared<RodProblem>(scene, true, endless.problem->topology(), endless.problem->meshes(), keys);
+  Started out{problem, endless.x, problem->parameters(), endless.newton_iterations};
+  for (const ContactEvent& event : contact_events(problem->profile(out.x, out.p), problem->topology()))
+    if (event.kind == ContactEvent::Kind::rim && event.value < 0.0)
+      return failure = fmt::format("it would touch the plate beyond plate.outer_radius = {:.6g}",
+                                   scene.plate->outer_radius),
+             std::nullopt;
+  return out;
+}
+
 }  // namespace
 
 std::optional<Started> knot_on_plate(const scene::Scene& scene, const std::vector<std::string>& keys,
                                      std::string& failure) {
-  constexpr double loose = 0.3;   // tension at which the highest place of a hitch is free of the cylinder [EI/ρ²]
+  constexpr double loose =
+      0.3;  // tension at which the highest place of a hitch is free of the cylinder [EI/ρ²]
   constexpr double slight = 1e-3;  // friction that changes a shape by no more than Newton's method sees to
   scene::Scene still = scene;
   still.plate.reset();
@@ -91,13 +108,17 @@ std::optional<Started> knot_on_plate(const scene::Scene& scene, const std::vecto
   if (!knot) return std::nullopt;
   if (!slides) return beside_plate(*knot, scene, keys, failure);
   scene::Scene at = scene;
+  at.plate->outer_radius = HUGE_VAL;  // on the way the plate may be touched farther out
   at.load.tension = loose;
   at.friction = std::min(slight, *scene.friction);
   std::optional<Started> from = under_plate(*knot, at, failure);
   if (!from) return std::nullopt;
   at.friction = scene.friction;
   from = reach(*from, at, *scene.friction, false, {"load.tension"}, failure);
-  return from ? reach(*from, scene, scene.load.tension, false, keys, failure) : std::nullopt;
+  if (!from) return std::nullopt;
+  at.load.tension = scene.load.tension;
+  from = reach(*from, at, scene.load.tension, false, keys, failure);
+  return from ? within_rim(*from, scene, keys, failure) : std::nullopt;
 }
 
 }  // namespace windlass::equilibrium

@@ -65,9 +65,8 @@ struct Meeting {
   /// A line on the plate alone presses at its ends only: a free stretch that lies in it.
   bool line_on_plate() const { return strip.is_line(tail()) && on_plate(tail()); }
   bool lies_flat() const {
-    return line_on_plate() ||
-           (!strip.is_line(tail()) &&
-            (strip.parts[tail()].kind == Stretch::tail || strip.plate_beside(tail()) >= 0));
+    return line_on_plate() || (!strip.is_line(tail()) && (strip.parts[tail()].kind == Stretch::tail ||
+                                                          strip.plate_beside(tail()) >= 0));
   }
 };
 

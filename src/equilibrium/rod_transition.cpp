@@ -137,6 +137,13 @@ bool extrapolate(Entry& touch, double p) {
   return true;
 }
 
+/// State of a touch at p(0). Of struts it is singular there; a plate's touch is not.
+bool bring_touch_to(Entry& touch, double p) {
+  if (touch.problem->rod().strut) return extrapolate(touch, p);
+  touch.p(0) = p;
+  return touch.problem->polish(touch.x, touch.p) >= 0;
+}
+
 /// The event where a line on a plane begins, and the touch in its place.
 std::optional<continuation::Transition::Located> located_onset(Entry line, int link, Entry touch) {
   std::optional<Vanishing> begins;
@@ -145,7 +152,7 @@ std::optional<continuation::Transition::Located> located_onset(Entry line, int l
   if (!tried([&] {
         begins = where_length_vanishes(*line.problem, line.x, line.p, link,
                                        4.0 * least_length * line.problem->rod().unit_length);
-        return begins && extrapolate(touch, begins->p) &&
+        return begins && bring_touch_to(touch, begins->p) &&
                touch.problem->residual_norm(touch.problem->residual(touch.x, touch.p)) < settled;
       }))
     return std::nullopt;
