@@ -156,14 +156,17 @@ void unroll(std::vector<Piece>& pieces, const obstacle::Set& obstacles) {
   }
 }
 
-/// Does a stretch lie in a plate from a touch of it to one of cylinder and plate? It carries no force along the axis.
+/// Does a stretch lie in a plate, from a touch of it to what touches the cylinder, too? It carries no force along the axis.
 bool held_in_plate(const RodKind& rod, const Topology& topology, int link) {
   const auto on_plate = [&](int joint) {
     return topology.seat(joint).strand == 0 && topology.seat(joint).obstacle > 0 &&
            rod.obstacles[topology.obstacle(joint)].curvature() == 0.0;
   };
-  return topology.stretches[link] == Stretch::gap && ((on_plate(link) && topology.touches_flat(link + 1)) ||
-                                                      (topology.touches_flat(link) && on_plate(link + 1)));
+  const auto on_both = [&](int joint, int beyond) {
+    return topology.touches_flat(joint) || topology.lies_flat(beyond);
+  };
+  return topology.stretches[link] == Stretch::gap &&
+         ((on_plate(link) && on_both(link + 1, link + 1)) || (on_both(link, link - 1) && on_plate(link + 1)));
 }
 
 /// Arclengths of the samples of a link.
