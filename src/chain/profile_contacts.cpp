@@ -101,13 +101,13 @@ bool on_plate(const Contact& c, const obstacle::Set& obstacles) {
          obstacles[0].curvature() != 0.0;
 }
 
-/// Beyond touches of a plate the rod goes on where it is, outward from the contacts of the cylinder.
+/// Beyond plates, and beyond strands beside them, the rod goes on where it is, outward from the contacts of the cylinder.
 void carry_turns_past_plates(std::vector<Contact>& contacts, std::vector<Piece>& pieces,
                              const obstacle::Set& obstacles) {
-  const auto first = std::find_if(contacts.begin(), contacts.end(),
-                                  [&](const Contact& c) { return !on_plate(c, obstacles); });
+  const auto counts = [&](const Contact& c) { return c.coupling < 0 && !on_plate(c, obstacles); };
+  const auto first = std::find_if(contacts.begin(), contacts.end(), counts);
   for (auto c = first; c != contacts.end(); ++c) {
-    if (!on_plate(*c, obstacles)) continue;
+    if (counts(*c)) continue;
     Piece &before = pieces[c->joint - 1], &after = pieces[c->joint];
     c->angle += turns(last(before), c->angle);
     after.angle.array() += turns(c->angle, after.angle(0));
@@ -156,8 +156,11 @@ void add_contacts(const Chain& chain, const Topology& topology, const VectorXd& 
       const double here = i == c.joint ? piece.angle(0) : piece.angle(piece.angle.size() - 1);
       piece.angle.array() += 2.0 * M_PI * std::round((c.angle - here) / (2.0 * M_PI));
     }
-  carry_turns_past_plates(out.contacts, out.pieces, out.obstacles);
-  carry_turns(out.contacts, out.pieces);
+  if (std::any_of(out.contacts.begin(), out.contacts.end(),
+                  [&](const Contact& c) { return on_plate(c, out.obstacles); }))
+    carry_turns_past_plates(out.contacts, out.pieces, out.obstacles);
+  else
+    carry_turns(out.contacts, out.pieces);
 }
 
 double total_contact_force(const Profile& profile, const Topology& topology) {

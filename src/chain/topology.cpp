@@ -88,7 +88,9 @@ std::unique_ptr<Joint> plate_joint(const RodKind& rod, const Topology& t, int jo
                                  &plate = rod.obstacles.pointer(t.seat(line).flat);
   if (t.stretches[other] != Stretch::line)
     return std::make_unique<spatial::FlatEdge>(flat, rod.bending_stiffness, cylinder, plate);
-  if (t.lies_flat(other)) throw std::invalid_argument("two line contacts cannot meet at a joint");
+  if (t.lies_flat(other) && t.seat(joint).strand == 0)
+    throw std::invalid_argument("two line contacts cannot meet at a joint");
+  if (t.lies_flat(other)) return std::make_unique<spatial::FlatPressed>(cylinder, plate);
   return std::make_unique<spatial::LiftOff>(flat, cylinder, plate);
 }
 

@@ -169,6 +169,40 @@ void FlatTouch::adopt(const Place& place, double* w) const {
   adopt_sign(place.q, base_, w + 1);
 }
 
+FlatPressed::FlatPressed(SurfacePointer line, const SurfacePointer& plate)
+    : line_(line), pressed_(std::move(line)), height_(height_of(*plate)) {}
+
+Attachment FlatPressed::attach(Side, const double* w, const Loads&) const { return lying_flat(w); }
+
+std::optional<Joint::Drag> FlatPressed::drag_of_push(const double* w, const Loads& loads,
+                                                     const Eigen::Vector3d& force) const {
+  const std::optional<Drag> all = pressed_.drag_of_push(on_line(w).data(), loads, force);
+  if (!all) return std::nullopt;
+  Drag out{SmallVector(2), flat_columns(flat_columns(all->by_w).transpose()).transpose(),
+           flat_columns(all->by_gradient.transpose()).transpose()};
+  out.value << all->value(0), all->value(3);
+  return out;
+}
+
+Centreline FlatPressed::centreline(const double* w) const {
+  Centreline at = pressed_.centreline(on_line(w).data());
+  const SmallMatrix dr = at.dr, dt = at.dt;
+  at.dr = flat_columns(dr);
+  at.dt = flat_columns(dt);
+  return at;
+}
+
+void FlatPressed::place_curvature(const double* w, const Eigen::Vector3d& f, SmallMatrix& out) const {
+  SmallMatrix all = SmallMatrix::Zero(4, 4);
+  pressed_.place_curvature(on_line(w).data(), f, all);
+  out(0, 0) += all(0, 0);
+}
+
+void FlatPressed::adopt(const Place& place, double* w) const {
+  const Vector2d flat = flat_coordinates(line_, place);
+  w[0] = flat(0), w[1] = flat(1);
+}
+
 LiftOff::LiftOff(Side flat_side, SurfacePointer line, SurfacePointer plate)
     : flat_(flat_side), line_(std::move(line)), plate_(std::move(plate)), height_(height_of(*plate_)) {}
 

@@ -40,6 +40,11 @@ double speed_at(const Solution& state, std::size_t joint, double compliance) {
   return state.travel_rate * (1.0 + compliance * n.dot(rod::directors(after.q.col(0)).col(2)));
 }
 
+/// What another strand pushes a joint with.
+Vector3d push_of_strand(const Solution& state, const JointRecord& joint) {
+  return joint.partner < 0 ? Vector3d::Zero() : Vector3d(joint.strand_force * strand_direction(state, joint));
+}
+
 /// mu N d_z of the contacts where the rod lies on a plate, too: it takes the friction on the spot. @returns the sum
 double drag_on_plate(Solution& state, const Topology& topology, const std::vector<int>& links,
                      double friction, double compliance) {
@@ -58,12 +63,21 @@ double drag_on_plate(Solution& state, const Topology& topology, const std::vecto
   return sum;
 }
 
-/// What another strand pushes a joint with.
-Vector3d push_of_strand(const Solution& state, const JointRecord& joint) {
-  return joint.partner < 0 ? Vector3d::Zero() : Vector3d(joint.strand_force * strand_direction(state, joint));
+/// What strands push lines with that lie on cylinder and plate, or their edges at an event, along the axis: it goes straight to the
+/// plate. @returns the sum
+double push_on_plate(Solution& state, const Topology& topology, const std::vector<int>& links) {
+  double sum = 0.0;
+  for (std::size_t k = 1; k < state.arcs.size(); ++k) {
+    JointRecord& joint = state.joints[k];
+    if (joint.obstacle != 0 || !(topology.lies_flat(links[k - 1]) || topology.lies_flat(links[k]))) continue;
+    const double push = push_of_strand(state, joint)(2);
+    joint.plate_force += push;
+    sum += push;
+  }
+  return sum;
 }
 
-/// The same of the other contacts: what they take of the force along the axis.
+/// mu N d_z of the other contacts: what they take of the force along the axis.
 double axial_drag(const Solution& state, const Topology& topology, const std::vector<int>& links) {
   double sum = 0.0;
   for (std::size_t k = 0; k < state.arcs.size(); ++k) {
@@ -116,7 +130,7 @@ void record_drag(const RodProblem& problem, const Vector& x, const contact::Load
   (scene.ends.travel == scene::Travel::free ? out.travel_rate : out.pull_difference) = travelled;
   const std::vector<int> links = links_of(out, problem, x, loads);
   const double on_plate = drag_on_plate(out, problem.topology(), links, *scene.friction, loads.compliance);
-  out.plate_force += on_plate;
+  out.plate_force += on_plate + push_on_plate(out, problem.topology(), links);
   out.F0 = on_plate + axial_drag(out, problem.topology(), links);
 }
 

@@ -157,7 +157,6 @@ void check_sliding(const Document& document, const Scene& scene) {
     if (scene.plate->outer_radius < 1.0)
       refuse("plate.outer_radius", "must be >= 1: a smaller plate does not reach the rod on the cylinder");
     if (scene.rod.infinite()) refuse("rod.length", "must be finite with a plate");
-    if (scene.knot.tied()) refuse("plate.height", "must not be given with a knot: not built yet");
     if (scene.model.symmetry == Symmetry::half_turn)
       refuse("model.symmetry", "must not be \"half_turn\": a plate is not its own image under the half-turn");
   }

@@ -59,6 +59,11 @@ double judged_between(const Solution& solution, std::size_t k, const Scales& sca
              : force / scales.force;
 }
 
+/// Is an arc a line on the cylinder that lies in the plate, too?
+bool lines_on_plate(const ArcRecord& arc, const scene::Scene& scene) {
+  return arc.kind == ArcKind::line && on_plate(arc, scene);
+}
+
 }  // namespace
 
 void check_joints(const Solution& solution, const scene::Scene& scene, const Scales& scales,
@@ -90,9 +95,8 @@ void check_joints(const Solution& solution, const scene::Scene& scene, const Sca
       const Vector3d outward = shape ? shape->outward(after.r) : Vector3d(Vector3d::Constant(NAN));
       if (shape) {
         const ArcRecord &left = solution.arcs[k - 1], &right = solution.arcs[k];
-        const bool flat[] = {on_plate(left, scene), on_plate(right, scene)};
-        const bool held = (flat[0] && left.kind == equilibrium::ArcKind::line) ||
-                          (flat[1] && right.kind == equilibrium::ArcKind::line) || (flat[0] && flat[1]);
+        const bool held = lines_on_plate(left, scene) || lines_on_plate(right, scene) ||
+                          (on_plate(left, scene) && on_plate(right, scene));
         // Friction along a rod that stretches changes the stretch: at a point it slips with the mean of the two.
         const Vector3d slope = 0.5 * (law.stretch(before) + law.stretch(after)) * tangent(after);
         jump += joint.force * (held ? shape->beside_plate() : *shape).push(after.r, slope);
@@ -104,7 +108,14 @@ void check_joints(const Solution& solution, const scene::Scene& scene, const Sca
     if (joint.partner >= 0) {
       const Vector3d e = equilibrium::strand_direction(solution, joint);
       const JointRecord& other = solution.joints[static_cast<std::size_t>(joint.partner)];
-      jump += joint.strand_force * e;
+      Vector3d push = joint.strand_force * e;
+      const ArcRecord &left = solution.arcs[k - 1], &right = solution.arcs[k];
+      if (joint.obstacle == 0 && on_plate(left, scene) && on_plate(right, scene) &&
+          (lines_on_plate(left, scene) || lines_on_plate(right, scene))) {  // it takes what is towards it
+        const double side = scene.plate->side == scene::PlateSide::above ? 1.0 : -1.0;
+        push.z() = side * std::min(side * push.z(), 0.0);
+      }
+      jump += push;
       apart.add(std::abs((joint.r - other.r).norm() - 2.0 * scene.rod_radius));
       apart.add(std::abs(joint.strand_force - other.strand_force) / scales.force);
       along.add(std::abs(e.dot(tangent(after))) * distance_that_counts(solution, k));

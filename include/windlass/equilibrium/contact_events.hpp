@@ -122,6 +122,8 @@ struct Successor {
   std::vector<int> opened;  ///< links that have no length at the event itself
   std::vector<int> held =
       {};  ///< ends of lines between strands that are known by guess only: the shape adjusts to them first
+  bool beside =
+      false;  ///< opened links grow so slowly that a state of a length is far: sought a little beside the event, too
   int bowed = -1;             ///< link that has no bow at the event itself, −1: none
   bool nothing_left = false;  ///< no contact remains: the branch ends
   bool at_rim = false;        ///< a contact has reached a plate's outer edge: the branch ends
