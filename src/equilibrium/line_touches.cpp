@@ -143,6 +143,20 @@ struct Divided {
   int mark;
 };
 
+/// Does another strand press where a joint of a strip is?
+bool strand_presses(const Strip& strip, double s) {
+  const auto at = std::find(strip.s.begin(), strip.s.end(), s);
+  return at != strip.s.end() && strip.on[static_cast<std::size_t>(at - strip.s.begin())].strand != 0;
+}
+
+/// Of the two halves of a line with its own image, by the joints in them: see chain::Strands::laid.
+bool divides_lower(const Strip& strip, const std::vector<double>& lower, const std::vector<double>& upper) {
+  if (lower.size() != upper.size()) return lower.size() > upper.size();
+  const auto presses = [&](double s) { return strand_presses(strip, s); };
+  return std::count_if(lower.begin(), lower.end(), presses) >=
+         std::count_if(upper.begin(), upper.end(), presses);
+}
+
 Divided divided(const Strip& strip, const Strands& strands, const StrandLine& line,
                 const std::vector<Touched>& known) {
   Divided out;
@@ -167,7 +181,7 @@ Divided divided(const Strip& strip, const Strands& strands, const StrandLine& li
   };
   if (out.own_image) {
     const std::vector<double> lower = between(strip.s[begin], middle), upper = between(middle, strip.s[end]);
-    out.by_first = lower.size() >= upper.size();
+    out.by_first = divides_lower(strip, lower, upper);
     out.s = out.by_first ? lower : upper;
     out.s.insert(out.s.begin(), out.by_first ? strip.s[begin] : middle);
     out.s.push_back(out.by_first ? middle : strip.s[end]);
@@ -191,12 +205,6 @@ double clear_of(const Strip& strip, double s) {
   for (const double at : strip.s)
     if (std::abs(s - at) < clear) return s < at ? at - clear : at + clear;
   return s;
-}
-
-/// Does another strand press where a joint of a strip is?
-bool strand_presses(const Strip& strip, double s) {
-  const auto at = std::find(strip.s.begin(), strip.s.end(), s);
-  return at != strip.s.end() && strip.on[static_cast<std::size_t>(at - strip.s.begin())].strand != 0;
 }
 
 /// Lays the touches of lines on a strip. Between the same two joints of a strand all lines have theirs at the same places; where
