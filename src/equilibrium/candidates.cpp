@@ -306,7 +306,8 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
     case Kind::length:
       if (profile.pieces[event.place].stretch == Stretch::tail) return {end_of_rod(strip)};
       if (const auto flat = flat_line_begins_or_ends(event.place, profile, strip)) return {*flat};
-      if (const auto anew = laid_anew_at(chain::Strands(topology), event.place); anew && event.redrawn)
+      if (const auto anew = laid_anew_at(profile, chain::Strands(topology), event.place);
+          anew && event.redrawn)
         return laid_anew(*anew, profile, topology, strip);
       if (const auto fewer = line_with_fewer_touches(profile, topology, event.place, strip)) return {*fewer};
       return after_skeleton(event, profile, topology, strip);
