@@ -214,6 +214,7 @@ Chain::Gauges gauges(const RodKind& rod, const Topology& t) {
     const bool upright = !rod.weighs[1] && !rod.weighs[2];  // nothing pulls it to a side
     if (!touched && upright && (rod.isotropic_straight() || pinned))
       g.phase = rod.isotropic_straight() ? -1.0 : 0.0;
+    g.knot = rod.knotted && !touched && !t.couplings().empty();
     return g;
   }
   g.height = rod.spatial && rod.travel == Travel::none && !rod.guided && !on_plate(rod, t);

@@ -88,6 +88,7 @@ chain::RodKind rod_of(const scene::Scene& scene, bool spatial) {
   constexpr double twentieth = 0.05;  // a capstan's rod has a length of some 20 ρ
   if (rod.strut) rod.unit_length = twentieth * scene.rod.length;
   rod.under_thrust = !scene.ends.shortening.has_value();
+  rod.knotted = rod.strut && scene.knot.tied();
   if (spatial && scene.has_cylinder) rod.pull_angle = scene.load.angle;
   rod.bending_stiffness = scene.rod.bending_stiffness;
   rod.stiffness = {scene.rod.bending_stiffness_2, scene.rod.bending_stiffness,

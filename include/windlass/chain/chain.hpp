@@ -68,6 +68,7 @@ class Chain {
     bool along = false;   ///< translation along e_x (both ends of a free rod under a dead thrust)
     bool spin = false;    ///< turn of every section about its tangent
     bool slide = false;
+    bool knot = false;  ///< the same of a knot round nothing, in variations alone: see knot_slide.cpp
     Travel travel = Travel::none;
     std::optional<double> phase;  ///< turn of the rod by α about e_x, with a spin of phase·α
   };
@@ -260,11 +261,13 @@ class Chain {
   struct Numbering {
     std::vector<Eigen::Index> coordinate, location, force, strand;  ///< −1 where absent
     Eigen::Index slide = -1, spin = -1, height = -1, phase = -1;
+    Eigen::Index together = -1;  ///< the place of all touches that move along the rod alike
     Eigen::Index size = 0, geometric = 0;
     int constraints = 0;  ///< multipliers and touch locations: one negative direction each
   };
 
-  Numbering number(Purpose purpose) const;
+  /// @param together  of variations: touches that stay where they are move along the rod, all alike
+  Numbering number(Purpose purpose, bool together = false) const;
   void couple();
   void keep_coordinates();
   /// Coordinates of a joint that vary.
@@ -276,6 +279,9 @@ class Chain {
   /// Motion of the phase gauge as an increment: dense block, then interiors.
   VectorXd phase_motion(Purpose purpose, const Numbering& numbering, const VectorXd& x,
                         const Loads& loads) const;
+  bool holds_knot(const Numbering& numbering) const { return gauges_.knot && numbering.slide >= 0; }
+  /// What the gauge of a knot holds, a linear form over dense block and interiors: one for a slide by a unit of length.
+  VectorXd slid_by(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads) const;
   /// How much the rod is stretched where a cylinder slips along it at a joint, and its derivatives.
   struct StretchAt {
     double value = 1.0;  ///< λ = 1 + k n·t, n the mean of the forces on the two sides where it is free
