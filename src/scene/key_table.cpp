@@ -76,7 +76,7 @@ constexpr std::string_view travel_words[] = {"free", "blocked"};
 constexpr std::string_view side_words[] = {"above", "below"};
 constexpr std::string_view knot_words[] = {"none", "clove_hitch"};
 constexpr std::string_view model_words[] = {"auto", "closed_form", "planar", "kirchhoff"};
-constexpr std::string_view symmetry_words[] = {"auto", "half_turn", "none"};
+constexpr std::string_view symmetry_words[] = {"auto", "half_turn", "mirror", "none"};
 
 template <auto Part, auto Member>
 Key parameter(std::string_view name, Dimension dimension, Range range, std::string_view help) {
