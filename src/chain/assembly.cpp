@@ -15,7 +15,8 @@ using contact::SmallVector;
 Attachment Chain::attachment(Purpose purpose, const VectorXd& x, const Loads& loads, int joint,
                              Side side) const {
   Attachment at = joints_[joint]->attach(side, coordinates(x, joint), loaded(x, loads));
-  if (purpose != Purpose::equilibrium) at.tested.reset();  // a second variation is of the displacements themselves
+  if (purpose != Purpose::equilibrium)
+    at.tested.reset();  // a second variation is of the displacements themselves
   const std::vector<int>& kept = this->kept(purpose, joint);
   const auto count = static_cast<Eigen::Index>(kept.size());
   if (count == at.dq.cols()) return at;
@@ -51,7 +52,8 @@ Chain::Local Chain::local(Purpose purpose, const Numbering& numbering, const Vec
   Local l;
   const Attachment left = attachment(purpose, x, loads, link, Side::right);
   const Attachment right = attachment(purpose, x, loads, link + 1, Side::left);
-  const bool drags = dragged() && purpose == Purpose::equilibrium, travels = drags && travel() != Travel::none;
+  const bool drags = dragged() && purpose == Purpose::equilibrium,
+             travels = drags && travel() != Travel::none;
   l.columns = MatrixXd::Zero(ends, left.dq.cols() + right.dq.cols() + 2 + forces + travels);
   l.rows = l.columns;
   Eigen::Index k = 0;
@@ -146,7 +148,8 @@ void Chain::add_joint_terms(Purpose purpose, const Numbering& numbering, const V
     joints_[joint]->curvature(side, coordinates(x, joint), loaded(x, loads), g, f, bend);
     if (drags) {
       if (const auto drag = drag_at(x, loads, link, side)) bend += drag->by_w;
-      if (travel() != Travel::none) add_travel(x, loads, link, side, g, side == Side::right ? n : n_end, dense);
+      if (travel() != Travel::none)
+        add_travel(x, loads, link, side, g, side == Side::right ? n : n_end, dense);
     }
     const std::vector<int>& kept = this->kept(purpose, joint);
     for (Eigen::Index r = 0; r < count; ++r)

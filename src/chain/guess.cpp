@@ -134,7 +134,7 @@ Profile unfolded(const Profile& half, Symmetry symmetry) {
   const bool turned = symmetry == Symmetry::half_turn;
   // Directors: (S d₁, −S d₂, −S d₃) under the half-turn, (S d₁, S d₂, −S d₃) in the mirror; half-turns about e_y and d₁, e_x and d₃.
   const Eigen::Vector4d i(0, 1, 0, 0), outer = turned ? Eigen::Vector4d(0, 0, 1, 0) : i,
-                                      inner = turned ? i : Eigen::Vector4d(0, 0, 0, 1);
+                                       inner = turned ? i : Eigen::Vector4d(0, 0, 0, 1);
   const auto frame = [&](const Eigen::Vector4d& q) {
     return Eigen::Vector4d(rod::product(outer, rod::product(q, inner)));
   };
@@ -157,8 +157,7 @@ Profile unfolded(const Profile& half, Symmetry symmetry) {
     image.n = -(place.asDiagonal() * piece->n.rowwise().reverse());
     image.m = moment.asDiagonal() * piece->m.rowwise().reverse();
     const Eigen::Index count = piece->s.size();
-    for (Eigen::Index k = 0; k < count; ++k)
-      image.q.col(k) = sign * frame(piece->q.col(count - 1 - k));
+    for (Eigen::Index k = 0; k < count; ++k) image.q.col(k) = sign * frame(piece->q.col(count - 1 - k));
     out.pieces.push_back(image);
   }
   out.pieces.insert(out.pieces.end(), half.pieces.begin(), half.pieces.end());

@@ -43,7 +43,8 @@ std::unique_ptr<Joint> symmetric_joint(const RodKind& rod, const Topology& t) {
     return std::make_unique<spatial::Stopped>(rod.obstacles.pointer(t.obstacle(0)),
                                               rod.obstacles.pointer(t.seat(0).stop), true);
   if (t.stretches.front() == Stretch::line) {
-    if (rod.spatial) return std::make_unique<spatial::SurfaceSection>(rod.obstacles.pointer(t.obstacle(0)));
+    if (rod.spatial)
+      return std::make_unique<spatial::SurfaceSection>(rod.obstacles.pointer(t.obstacle(0)), t.symmetry);
     return std::make_unique<planar::SurfaceSection>();
   }
   if (t.mid_touch) {
@@ -192,11 +193,9 @@ bool any_on_obstacle(const RodKind& rod, const Topology& t, const Condition& con
 }
 
 /// Does the rod touch an obstacle that does not let it move along the axis?
-bool on_plate(const RodKind& rod, const Topology& t) {
+bool on_plate(const Topology& t) {
   for (int j = t.half ? 0 : 1; j < static_cast<int>(t.stretches.size()); ++j)
-    if (t.lies_flat(j) || t.touches_flat(j) ||
-        (t.seat(j).strand == 0 && t.pushed_by(j) > 0))
-      return true;
+    if (t.lies_flat(j) || t.touches_flat(j) || (t.seat(j).strand == 0 && t.pushed_by(j) > 0)) return true;
   return false;
 }
 
@@ -217,7 +216,7 @@ Chain::Gauges gauges(const RodKind& rod, const Topology& t) {
       g.phase = rod.isotropic_straight() ? -1.0 : 0.0;
     return g;
   }
-  g.height = rod.spatial && rod.travel == Travel::none && !on_plate(rod, t);
+  g.height = rod.spatial && rod.travel == Travel::none && !on_plate(t);
   g.travel = rod.spatial ? rod.travel : Travel::none;
   g.spin = rod.spatial && !rod.holds_an_end() && rod.isotropic_straight();
   g.slide = true;
@@ -236,7 +235,8 @@ Topology unfolded(const Topology& t) {
   whole.stretches.insert(whole.stretches.end(), t.stretches.begin() + skipped, t.stretches.end());
   if (t.on.empty()) return whole;
   whole.on.assign(t.on.rbegin(), t.on.rend() - 1);
-  for (int j = 1; j < static_cast<int>(whole.on.size()); ++j) {  // of a line its beginning says that it lies flat
+  for (int j = 1; j < static_cast<int>(whole.on.size());
+       ++j) {  // of a line its beginning says that it lies flat
     const int link = static_cast<int>(t.stretches.size()) - 1 - j;
     if (t.stretches[link] == Stretch::line)
       whole.on[j].flat = t.seat(link).flat;
@@ -280,8 +280,7 @@ Topology folded(const Topology& whole, Symmetry symmetry) {
   out.symmetry = symmetry;
   out.mid_touch = count % 2 == 0;
   out.stretches.assign(whole.stretches.begin() + static_cast<std::ptrdiff_t>(first), whole.stretches.end());
-  if (!whole.on.empty())
-    out.on.assign(whole.on.begin() + static_cast<std::ptrdiff_t>(first), whole.on.end());
+  if (!whole.on.empty()) out.on.assign(whole.on.begin() + static_cast<std::ptrdiff_t>(first), whole.on.end());
   // A free section at the middle touches nothing.
   if (!out.on.empty() && !out.mid_touch && out.stretches.front() != Stretch::line) out.on.front() = {};
   return out;

@@ -54,7 +54,8 @@ struct Hold {
 };
 std::optional<Hold> held_at(const Piece& tail, bool leftward, double slope, const scene::Plate& its_plate) {
   const std::optional<double> level = levels_off(tail, leftward, slope);
-  if (!std::isfinite(its_plate.outer_radius)) return level ? std::optional(Hold{*level, plate}) : std::nullopt;
+  if (!std::isfinite(its_plate.outer_radius))
+    return level ? std::optional(Hold{*level, plate}) : std::nullopt;
   const std::optional<double> out = comes_out(tail, leftward, its_plate.outer_radius);
   if (out && (!level || std::abs(*out) < std::abs(*level))) return Hold{*out, plate + 1};
   return level ? std::optional(Hold{*level, plate}) : std::nullopt;
@@ -307,7 +308,8 @@ std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector
   // Next to nothing; with more friction the plate holds the tail nearer to the coil, so that short tails need more.
   constexpr double least = 1e-3, next = 2.0, most = 0.1;
   const double goal = scene.dragging_friction();
-  std::vector<Started> out;
+  std::vector<Started> out = scene.mirrored() ? hanging_arches(scene, keys) : std::vector<Started>();
+  const std::size_t arches = out.size();
   int followed = 0, points = 0, beyond = 0;
   for (const FoundState& still : search(standing(scene), true, false, {"load.tension"}).states) {
     if (still.fingerprint(2) < flat) continue;
@@ -315,8 +317,7 @@ std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector
     std::string failure;
     for (double mu = std::min(least, 0.5 * goal); !start && mu < std::min(most, goal); mu *= next)
       start = under_the_plate(still.at, scene, mu, failure);
-    if (start && scene.mirrored())
-      start = fold(*start->problem, start->x, start->p, chain::Symmetry::mirror);
+    if (start && scene.mirrored()) start = fold(*start->problem, start->x, start->p, chain::Symmetry::mirror);
     if (!start) continue;
     ++followed;
     continuation::Options options;
@@ -344,6 +345,7 @@ std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector
   }
   searched = fmt::format("{} states without friction dragged to mu = {:.4g} and as far again, {} points",
                          followed, goal, points);
+  if (scene.mirrored()) searched += fmt::format("; {} that hang from the plate on both sides", arches);
   if (beyond > 0)
     searched += fmt::format("; {} would touch the plate beyond plate.outer_radius = {:.6g}", beyond,
                             scene.plate->outer_radius);

@@ -178,7 +178,8 @@ void assemble(const chain::Profile& shape, const chain::Profile& whole, const To
   std::vector<Placed> contacts;
   if (topology.half)
     for (std::size_t j = shape.contacts.size(); j-- > 0;)
-      if (!(topology.mid_touch && j == 0)) contacts.push_back(placed_contact(shape.contacts[j], -1, topology.symmetry));
+      if (!(topology.mid_touch && j == 0))
+        contacts.push_back(placed_contact(shape.contacts[j], -1, topology.symmetry));
   for (const chain::Contact& c : shape.contacts) contacts.push_back(placed_contact(c, 1, topology.symmetry));
   if (topology.half && !topology.mid_touch) {  // the mid-point is no joint: its stretch spans both halves
     const std::size_t middle = topology.stretches.size();
@@ -310,7 +311,10 @@ Solution record(RodProblem& problem, const Vector& x, const Vector& p) {
       out.joints[j].holding = -share * problem.chain().holding_force(x);
   for (const ArcRecord& arc : out.arcs) out.R_tot += arc.force;
   for (const JointRecord& joint : out.joints)
-    (scene.has_cylinder && joint.obstacle > 0 ? out.plate_force : out.R_tot) += joint.force;
+    if (scene.has_cylinder && joint.obstacle > 0)
+      out.plate_force += std::abs(joint.normal.z()) * joint.force;  // its outer edge pushes aside, too
+    else
+      out.R_tot += joint.force;
   if (scene.has_cylinder) {
     if (scene.friction) out.F0 = *scene.friction * out.R_tot;
     record_drag(problem, x, loads, scene, out);

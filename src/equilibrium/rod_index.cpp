@@ -50,7 +50,8 @@ int sign_of_determinant(RodProblem& problem, const Vector& x, const Vector& p) {
 // says where odd motions of a load without potential lose their stability one by one.
 int RodProblem::breaking_sign(const Vector& x, const Vector& p) {
   const Started whole = image_on_full_chain(*this, x, p);
-  RodProblem half(scene_at(p), spatial_, topology_, meshes_, keys_);  // this one's factors are still asked for
+  RodProblem half(scene_at(p), spatial_, topology_, meshes_,
+                  keys_);  // this one's factors are still asked for
   return sign_of_determinant(*whole.problem, whole.x, p) * sign_of_determinant(half, x, p);
 }
 

@@ -1,6 +1,9 @@
 #include <algorithm>
 
+#include <cmath>
+
 #include "attempt.hpp"
+#include "windlass/rod/quaternion.hpp"
 
 namespace windlass::equilibrium {
 
@@ -83,6 +86,16 @@ bool is_own_image(const chain::Profile& shape, chain::Symmetry symmetry) {
   return true;
 }
 
+/// The middle of a rod that is its own image, exactly: what the symmetry holds is not solved for.
+contact::Place on_the_symmetry(contact::Place middle, chain::Symmetry symmetry) {
+  const Eigen::Vector3d image = contact::image(symmetry);
+  const Eigen::Vector3d t = rod::directors(middle.q).col(2);
+  middle.r = 0.5 * (middle.r + image.cwiseProduct(middle.r));
+  middle.q = rod::product(rod::turn_between(t, (t - image.cwiseProduct(t)).normalized()), middle.q);
+  middle.angle = M_PI * std::round(middle.angle / M_PI);
+  return middle;
+}
+
 /// What of a mesh is behind its middle, as a mesh of its own.
 ArcMesh second_half(const ArcMesh& whole) {
   ArcMesh out{{0.0}, whole.stages};
@@ -109,6 +122,8 @@ std::optional<Started> fold(RodProblem& whole, const Vector& x, const Vector& p,
   const auto problem =
       std::make_shared<RodProblem>(whole.scene_at(p), whole.spatial(), topology, meshes, whole.keys());
   Vector y = chain::guess_state(problem->chain(), topology, problem->rod(), shape, s);
+  problem->chain().joint(0).adopt(on_the_symmetry(shape.at(0.0), symmetry),
+                                  problem->chain().coordinates(y, 0));
   const int used = problem->polish(y, p);
   if (used < 0) return std::nullopt;
   return Started{problem, problem->refine(y, p), p, used};

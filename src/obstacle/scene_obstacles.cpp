@@ -14,12 +14,11 @@ Set obstacles_of(const scene::Scene& scene) {
     const scene::Plate& plate = *scene.plate;
     const bool above = plate.side == scene::PlateSide::above;
     const double up = above ? 1.0 : -1.0;
-    std::vector<SurfacePointer> all{unit_cylinder(),
-                                    std::make_shared<const Plane>(Vector3d(0.0, 0.0, up), up * plate.height,
-                                                                  plate.outer_radius)};
+    std::vector<SurfacePointer> all{
+        unit_cylinder(),
+        std::make_shared<const Plane>(Vector3d(0.0, 0.0, up), up * plate.height, plate.outer_radius)};
     if (std::isfinite(plate.outer_radius))  // its edge comes next to it
-      all.push_back(
-          std::make_shared<const Rim>(plate.outer_radius, plate.height, above, scene.rod_radius));
+      all.push_back(std::make_shared<const Rim>(plate.outer_radius, plate.height, above, scene.rod_radius));
     return Set(std::move(all));
   }
   if (scene.has_cylinder) return cylinder;

@@ -76,7 +76,8 @@ Mode mode_of(RodProblem& problem, const Vector& x, const Vector& p, const Vector
   const double largest = mode.displacement.cwiseAbs().maxCoeff();
   if (largest > 0.0) mode.displacement /= largest;
   mode.plane = mode.displacement.row(2).norm() > mode.displacement.topRows(2).norm() ? "out" : "in";
-  mode.parity = half ? (parity == Parity::odd ? "odd" : "even") : parity_of(mode.s, mode.displacement, symmetry);
+  mode.parity =
+      half ? (parity == Parity::odd ? "odd" : "even") : parity_of(mode.s, mode.displacement, symmetry);
   return mode;
 }
 

@@ -36,13 +36,13 @@ struct Gap {
   double value, rate, bend = 0.0;
   Gap(double v, double r) : value(v), rate(r) {}
   Gap(const Section& x, const Shape& shape)
-      : value(shape.gap(x.r)), rate(shape.outward(x.r).dot(tangent(x))) {}
+      : value(shape.gap(x.r)), rate(shape.outward(x.r, tangent(x)).dot(tangent(x))) {}
   /// On a free arc: r' = λ t, n' = −weight.
   Gap(const Section& x, const Shape& shape, const Stiffness& law) : Gap(x, shape) {
     const Eigen::Matrix3d d = rotation(x.q);
     const Eigen::Vector3d t = d.col(2), slope = (d * law.strain(x)).cross(t);
     const double stretch = law.stretch(x), stretch_rate = law.k * (x.n.dot(slope) - law.weight.dot(t));
-    bend = stretch * shape.outward(x.r).dot(slope) + stretch_rate * rate +
+    bend = stretch * shape.outward(x.r, t).dot(slope) + stretch_rate * rate +
            stretch * stretch * shape.bend(x.r, t);
     rate *= stretch;
   }
@@ -162,12 +162,8 @@ void look_along(const std::vector<Section>& sections, double begin, double h, Ar
     }
     for (const Shape& shape : around.shapes) {
       if (kind != ArcKind::free && &shape == &around.below) continue;
-      const bool over[] = {shape.reaches(sections[k - 1].r), shape.reaches(sections[k].r)};
-      for (const bool ahead : {false, true})  // past a plate's outer edge
-        if (over[ahead] && !over[!ahead]) found.gap.add(shape.gap(sections[ahead ? k : k - 1].r));
-      if (over[0] && over[1])
-        found.gap.add(smallest_between(Gap(sections[k - 1], shape, around.law),
-                                       Gap(sections[k], shape, around.law), h));
+      found.gap.add(
+          smallest_between(Gap(sections[k - 1], shape, around.law), Gap(sections[k], shape, around.law), h));
     }
   }
 }

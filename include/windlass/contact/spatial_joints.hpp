@@ -116,8 +116,9 @@ class Edge final : public VectorJoint {
 /// and χ; so n_z and the twisting moment vanish there under the mirror, and ψ and its moment are those of the other.
 class SurfaceSection final : public VectorJoint {
  public:
-  explicit SurfaceSection(SurfacePointer surface = obstacle::unit_cylinder())
-      : surface_(std::move(surface)) {}
+  explicit SurfaceSection(SurfacePointer surface = obstacle::unit_cylinder(),
+                          Symmetry symmetry = Symmetry::half_turn)
+      : surface_(std::move(surface)), symmetry_(symmetry) {}
   JointKind kind() const override { return JointKind::section; }
   int tangent() const override { return 4; }
   std::vector<int> even(Symmetry symmetry) const override {
@@ -132,6 +133,7 @@ class SurfaceSection final : public VectorJoint {
 
  private:
   SurfacePointer surface_;
+  Symmetry symmetry_;
 };
 
 /// A section of a free arc, likewise: w = (r, q), 6 degrees of freedom. On the half-turn's axis d₁ = −e_y: the rod may turn

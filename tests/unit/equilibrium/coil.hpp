@@ -93,7 +93,11 @@ inline Coil spatial_coil(double tension, int elements = 12, int stages = 6) {
       {bvp::make_collocation_arc(rod::SurfaceDensity{}, graded(elements / 2, 1.0), stages), "line", 0});
   links.push_back({bvp::make_collocation_arc(rod::KirchhoffDensity{}, mesh, stages), "tail", 1});
   Coil coil{chain::Chain(std::move(joints), {0.0, 0.0, 1.0}, std::move(links),
-                         {.symmetry = contact::Symmetry::half_turn, .height = true, .spin = true, .slide = true, .phase = {}}),
+                         {.symmetry = contact::Symmetry::half_turn,
+                          .height = true,
+                          .spin = true,
+                          .slide = true,
+                          .phase = {}}),
             {},
             loads};
   const double contact_end = 0.5 * loads.angle - std::acos(1.0 - 0.5 / tension);
