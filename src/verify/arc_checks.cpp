@@ -84,6 +84,31 @@ double smallest_between(const Gap& a, const Gap& b, double h) {
   return smallest;
 }
 
+/// The same past the outer edge of a plate, where the gap's curvature jumps, or its slope: of the gap itself, along the quintic way
+/// through both places.
+double smallest_past_edge(const Section& a, const Section& b, const Shape& shape, const Stiffness& law,
+                          double h) {
+  constexpr int parts = 64;
+  const auto derivatives = [&](const Section& x) {
+    const Eigen::Matrix3d d = rotation(x.q);
+    const Eigen::Vector3d t = d.col(2), slope = (d * law.strain(x)).cross(t);
+    const double stretch = law.stretch(x), rate = law.k * (x.n.dot(slope) - law.weight.dot(t));
+    return std::pair<Eigen::Vector3d, Eigen::Vector3d>(h * stretch * t, h * h * (stretch * slope + rate * t));
+  };
+  const auto [v, w] = derivatives(a);
+  const auto [v_b, w_b] = derivatives(b);
+  const Eigen::Vector3d D = b.r - a.r - v - 0.5 * w, E = v_b - v - w, F = w_b - w;
+  const Eigen::Vector3d c3 = 10.0 * D - 4.0 * E + 0.5 * F, c4 = -15.0 * D + 7.0 * E - F,
+                        c5 = 6.0 * D - 3.0 * E + 0.5 * F;
+  double smallest = std::min(shape.gap(a.r), shape.gap(b.r));
+  for (int k = 1; k < parts; ++k) {
+    const double x = static_cast<double>(k) / parts;
+    const Eigen::Vector3d r = a.r + x * (v + x * (0.5 * w + x * (c3 + x * (c4 + x * c5))));
+    smallest = std::min(smallest, shape.gap(r));
+  }
+  return smallest;
+}
+
 /// What the integration of all arcs collects.
 struct Collected {
   Largest position, frame, moment, force, off_surface, pressure, arc_force;
@@ -162,8 +187,10 @@ void look_along(const std::vector<Section>& sections, double begin, double h, Ar
     }
     for (const Shape& shape : around.shapes) {
       if (kind != ArcKind::free && &shape == &around.below) continue;
-      found.gap.add(
-          smallest_between(Gap(sections[k - 1], shape, around.law), Gap(sections[k], shape, around.law), h));
+      const Section &from = sections[k - 1], &to = sections[k];
+      found.gap.add(shape.past_edge(from.r) || shape.past_edge(to.r)
+                        ? smallest_past_edge(from, to, shape, around.law, h)
+                        : smallest_between(Gap(from, shape, around.law), Gap(to, shape, around.law), h));
     }
   }
 }

@@ -33,6 +33,11 @@ class Shape {
     return -arm_ * outward(r, t).cross(push(r, t));
   }
   bool has_edge() const { return std::isfinite(outer_radius_); }
+  /// Is a place beyond a plate's outer edge? On it, to the precision of an event, it is not.
+  bool past_edge(const Eigen::Vector3d& r) const {
+    constexpr double located = 1e-9;
+    return r.head<2>().norm() > outer_radius_ + located;
+  }
   bool has_couple() const { return arm_ > 0.0; }
   /// Second derivative of the gap along a unit tangent t, but for the part that the curvature of the rod has.
   double bend(const Eigen::Vector3d& r, const Eigen::Vector3d& t) const;
