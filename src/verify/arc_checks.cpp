@@ -188,9 +188,10 @@ void look_along(const std::vector<Section>& sections, double begin, double h, Ar
     for (const Shape& shape : around.shapes) {
       if (kind != ArcKind::free && &shape == &around.below) continue;
       const Section &from = sections[k - 1], &to = sections[k];
+      const Shape inside = shape.without_edge();
       found.gap.add(shape.past_edge(from.r) || shape.past_edge(to.r)
                         ? smallest_past_edge(from, to, shape, around.law, h)
-                        : smallest_between(Gap(from, shape, around.law), Gap(to, shape, around.law), h));
+                        : smallest_between(Gap(from, inside, around.law), Gap(to, inside, around.law), h));
     }
   }
 }

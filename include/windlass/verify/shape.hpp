@@ -33,6 +33,12 @@ class Shape {
     return -arm_ * outward(r, t).cross(push(r, t));
   }
   bool has_edge() const { return std::isfinite(outer_radius_); }
+  /// The same plate without an end.
+  Shape without_edge() const {
+    Shape shape = *this;
+    shape.outer_radius_ = HUGE_VAL;
+    return shape;
+  }
   /// Is a place beyond a plate's outer edge? On it, to the precision of an event, it is not.
   bool past_edge(const Eigen::Vector3d& r) const {
     constexpr double located = 1e-9;
