@@ -31,6 +31,7 @@ std::vector<Pressing> contacts(double edge, double end, bool middle) {
 std::vector<Started> hanging_arches(const scene::Scene& scene, const std::vector<std::string>& keys) {
   scene::Scene whole = scene;
   whole.model.symmetry = scene::Symmetry::none;
+  whole.ends.travel = scene::Travel::blocked;  // it needs no travel, nor a difference of the pulls
   std::vector<Started> out;
   const Started flat = flat_on_plate(whole, keys);
   const chain::Profile shape = flat.problem->profile(flat.x, flat.p);

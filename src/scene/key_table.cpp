@@ -355,7 +355,9 @@ std::vector<Key> method_keys() {
   using C = Continuation;
   return {
       word<&Scene::model, &Model::kind, model_words>("model.kind", "rung of the model ladder"),
-      word<&Scene::model, &Model::symmetry, symmetry_words>("model.symmetry", "half or whole rod"),
+      word<&Scene::model, &Model::symmetry, symmetry_words>(
+          "model.symmetry",
+          "half or whole rod; mirror: of a dragged rod, states that are their own images in x = 0"),
       tolerance,
       parameter_name,
       method<&C::from>("continuation.from", Dimension::of_parameter, any,

@@ -164,9 +164,8 @@ void check_sliding(const Document& document, const Scene& scene) {
   if (scene.mirrored()) {
     if (!scene.slides())
       refuse("model.symmetry",
-             "must not be \"mirror\" without cylinder.sliding = \"up\": states that the half-turn, or no "
-             "symmetry, "
-             "maps to themselves are among the others");
+             "must not be \"mirror\" without cylinder.sliding = \"up\": it is built for rods that a cylinder "
+             "drags");
     if (scene.ends.left_kind() != scene.ends.right_kind())
       refuse("model.symmetry", "must not be \"mirror\": the two ends of the rod are held differently");
     if (scene.strand_radius() > 0.0 || starts_in(scene, "rod.radius"))

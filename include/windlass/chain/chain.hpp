@@ -411,7 +411,7 @@ class Chain {
   std::vector<Coupling> couplings_;
   std::vector<int> coupling_of_;  ///< of a joint; −1: none
   std::vector<std::vector<int>> kept_,
-      varied_;            ///< coordinates that vary at a joint, in equilibrium and in variations
+      varied_;                   ///< coordinates that vary at a joint, in equilibrium and in variations
   std::vector<int> even_, odd_;  ///< those of the first joint of a half chain in even and in odd variations
   int first_contact_ = -1, last_contact_ = -1;  ///< the outermost contacts; without one the ends
   bool in_contact_ = false, slides_ = false;

@@ -153,6 +153,7 @@ class RodProblem final : public continuation::Problem {
   /// Of eigenvalues whose sign rounding has made as many are counted as brings the count closest to `last`; −1: none.
   int count(const Vector& x, const Vector& p, contact::Parity parity, int last = -1);
   bool degenerate(const Vector& x, const contact::Loads& at) const;
+  /// Of a dragged half chain: the sign of det J on odd motions, up to a factor of the mesh; 0: singular.
   int breaking_sign(const Vector& x, const Vector& p);
   /// Are the tails so short that they resist sliding by more than rounding?
   bool slides_freely(const Vector& x, const Vector& p);
