@@ -22,6 +22,9 @@ namespace {
 
 using contact::Loads;
 
+/// Does the plate end? Its edge is as round as the rod is thick (obstacle::Rim).
+bool has_rim(const scene::Scene& scene) { return scene.plate && std::isfinite(scene.plate->outer_radius); }
+
 /// Parameters that change loads only; all others rebuild the arcs.
 double Loads::*field_of(const std::string& key, const scene::Scene& scene) {
   if (key == "load.tension") return &Loads::tension;
@@ -29,6 +32,7 @@ double Loads::*field_of(const std::string& key, const scene::Scene& scene) {
   if (key == "load.thrust") return &Loads::thrust;
   if (key == "ends.shortening") return &Loads::shortening;
   if (key == "ends.twist") return &Loads::twist;
+  if (key == "rod.radius" && has_rim(scene)) return nullptr;
   if (key == "rod.radius") return scene.friction_has_couple() ? &Loads::arm : &Loads::radius;
   if (key == "cylinder.friction") return &Loads::friction;
   if (key == "rod.axial_compliance") return &Loads::compliance;
@@ -104,8 +108,8 @@ RodProblem::RodProblem(scene::Scene scene, bool spatial, Topology topology,
 }
 
 bool RodProblem::admits(const Topology& topology) const {
-  const bool couple =
-      base_.arm != 0.0 || std::find(fields_.begin(), fields_.end(), &Loads::arm) != fields_.end();
+  const bool thickens = std::find(keys_.begin(), keys_.end(), "rod.radius") != keys_.end();
+  const bool couple = base_.arm != 0.0 || (thickens && scene_.friction_has_couple());
   return !couple || (spatial_ && carries_couple(topology));
 }
 
@@ -137,9 +141,9 @@ Loads RodProblem::loads(const Vector& p) {
     changed = true;
   }
   if (changed) {
-    // Lengths live in the loads; only stiffness and natural strains are built into the arcs.
+    // Lengths live in the loads; only stiffness and natural strains are built into the arcs, and a plate's edge into joints.
     const chain::RodKind rod = rod_of(scene_, spatial_);
-    const bool arcs = rod.stiffness != rod_.stiffness || rod.natural != rod_.natural;
+    const bool arcs = rod.stiffness != rod_.stiffness || rod.natural != rod_.natural || has_rim(scene_);
     base_ = loads_of(scene_);
     if (arcs) rebuild();
   }
