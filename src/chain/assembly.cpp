@@ -15,6 +15,8 @@ using contact::SmallVector;
 Attachment Chain::attachment(Purpose purpose, const VectorXd& x, const Loads& loads, int joint,
                              Side side) const {
   Attachment at = joints_[joint]->attach(side, coordinates(x, joint), loaded(x, loads, joint));
+  if (purpose != Purpose::equilibrium)
+    at.tested.reset();  // a second variation is of the displacements themselves
   const std::vector<int>& kept = this->kept(purpose, joint);
   const auto count = static_cast<Eigen::Index>(kept.size());
   if (count == at.dq.cols()) return at;
@@ -50,12 +52,13 @@ Chain::Local Chain::local(Purpose purpose, const Numbering& numbering, const Vec
   Local l;
   const Attachment left = attachment(purpose, x, loads, link, Side::right);
   const Attachment right = attachment(purpose, x, loads, link + 1, Side::left);
-  const bool travels = gauges_.travel != Travel::none && purpose == Purpose::equilibrium;
+  const bool drags = dragged() && purpose == Purpose::equilibrium,
+             travels = drags && travel() != Travel::none;
   l.columns = MatrixXd::Zero(ends, left.dq.cols() + right.dq.cols() + 2 + forces + travels);
   l.rows = l.columns;
   Eigen::Index k = 0;
   const auto coordinates_of = [&](const Attachment& at, int joint, Side side, int first_end) {
-    const auto drag = travels ? drag_at(x, loads, link, side) : std::nullopt;
+    const auto drag = drags ? drag_at(x, loads, link, side) : std::nullopt;
     for (Eigen::Index c = 0; c < at.dq.cols(); ++c, ++k) {
       l.dofs.push_back(numbering.coordinate[joint] + c);
       l.columns.col(k).segment(first_end, d) = at.dq.col(c);
@@ -163,7 +166,7 @@ void Chain::add_joint_terms(Purpose purpose, const Numbering& numbering, const V
   const Arc& arc = *links_[link].arc;
   const int d = arc.tangent();
   const SmallVector n = force(x, loads, link), n_end = force_at_end(x, loads, link, n, gradient);
-  const bool travels = gauges_.travel != Travel::none && purpose == Purpose::equilibrium;
+  const bool drags = dragged() && purpose == Purpose::equilibrium;
   for (const Side side :
        {Side::right, Side::left}) {  // of the joint: the arc starts at its right, ends at its left
     const int joint = side == Side::right ? link : link + 1;
@@ -175,9 +178,10 @@ void Chain::add_joint_terms(Purpose purpose, const Numbering& numbering, const V
     const SmallVector g = gradient.segment(side == Side::right ? 0 : d, d),
                       f = side == Side::right ? SmallVector(-n) : n_end;
     joints_[joint]->curvature(side, coordinates(x, joint), loaded(x, loads, joint), g, f, bend);
-    if (travels) {
+    if (drags) {
       if (const auto drag = drag_at(x, loads, link, side)) bend += drag->by_w;
-      add_travel(x, loads, link, side, g, side == Side::right ? n : n_end, dense);
+      if (travel() != Travel::none)
+        add_travel(x, loads, link, side, g, side == Side::right ? n : n_end, dense);
     }
     const std::vector<int>& kept = this->kept(purpose, joint);
     for (Eigen::Index r = 0; r < count; ++r)

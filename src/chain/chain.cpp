@@ -109,11 +109,10 @@ void Chain::keep_coordinates() {
     varied_.push_back(shares_place(j) ? varied_.back() : varied);
   }
   if (!half()) return;
-  const std::vector<int> even = joints_[0]->even();
+  const std::vector<int> even = joints_[0]->even(*gauges_.symmetry);
   const auto is_even = [&](int k) { return std::find(even.begin(), even.end(), k) != even.end(); };
-  std::copy_if(varied_[0].begin(), varied_[0].end(), std::back_inserter(odd_),
-               [&](int k) { return !is_even(k); });
-  kept_[0] = even;
+  for (const int k : varied_[0]) (is_even(k) ? even_ : odd_).push_back(k);
+  std::erase_if(kept_[0], [&](int k) { return !is_even(k); });
 }
 
 double Chain::slide_share(int joint) const {
@@ -169,14 +168,15 @@ Chain::Numbering Chain::number(Purpose purpose, bool together) const {
     n.constraints += !kept;
   }
   const auto hold = [&](bool gauge, Eigen::Index& row) {
-    if (!gauge || !asymmetric) return;
+    if (!gauge) return;
     row = n.size++;
     ++n.constraints;
   };
-  hold(gauges_.knot ? !equilibrium : gauges_.slide && in_contact_, n.slide);
-  hold(gauges_.spin && !equilibrium, n.spin);
-  hold(gauges_.height && !equilibrium, n.height);
-  hold(gauges_.phase && !equilibrium, n.phase);
+  const bool spins = this->spins(purpose) && !equilibrium;
+  hold(gauges_.knot ? !equilibrium && asymmetric : gauges_.slide && in_contact_ && asymmetric, n.slide);
+  hold(gauges_.spin && spins, n.spin);
+  hold(gauges_.height && spins, n.height);
+  hold(gauges_.phase && spins, n.phase);
   return n;
 }
 
@@ -237,7 +237,7 @@ double Chain::touch_force(const VectorXd& x, const Loads& loads, int joint) cons
   if (joint > 0)
     before = end_force(x, loads, joint - 1);
   else
-    before(1) = -before(1);
+    before = -contact::image(*gauges_.symmetry).head(after.size()).cwiseProduct(after);
   return (before - after).dot(joints_[joint]->chart(coordinates(x, joint)).normal.head(after.size()));
 }
 
@@ -245,7 +245,7 @@ VectorXd Chain::force(const VectorXd& x, const Loads& loads, int link) const {
   const Link& l = links_[link];
   if (l.pull == 0) return x.segment(force_at_[link], l.arc->forces());
   VectorXd n = VectorXd::Zero(l.arc->forces());
-  const double difference = gauges_.travel == Travel::blocked ? x(slide_at_ + 1) : 0.0;
+  const double difference = travel() == Travel::blocked ? x(slide_at_ + 1) : 0.0;
   const double tension = loads.tension + l.pull * difference;
   n(0) = tension * std::cos(0.5 * loads.angle);
   n(1) = l.pull * tension * std::sin(0.5 * loads.angle);
@@ -268,7 +268,7 @@ VectorXd Chain::weight_on(const Loads& loads, int link) const {
 VectorXd Chain::force_by_travel(const Loads& loads, int link) const {
   const Link& l = links_[link];
   VectorXd n = VectorXd::Zero(l.arc->forces());
-  if (l.pull == 0 || gauges_.travel != Travel::blocked) return n;
+  if (l.pull == 0 || travel() != Travel::blocked) return n;
   n(0) = l.pull * std::cos(0.5 * loads.angle);
   n(1) = std::sin(0.5 * loads.angle);
   return n;
@@ -284,7 +284,7 @@ Chain::Placed Chain::place(const VectorXd& x, const Loads& loads, int link) cons
   p.friction = loads.friction;
   p.compliance = loads.compliance;
   if (loads.weighs()) p.weight = weight_on(loads, link);
-  if (gauges_.travel == Travel::free) p.travel = x(slide_at_ + 1);
+  if (travel() == Travel::free) p.travel = x(slide_at_ + 1);
   if (std::isinf(p.length)) p.length = tail_decay_lengths / std::sqrt(p.n.norm());
   // Between contacts the equations hold, analytically, for lengths past zero too, so that the event can be located
   // from both sides; only zero itself is singular and is stepped over. A tail must exist.

@@ -52,7 +52,7 @@ void Chain::add_dragged_pushes(const VectorXd& x, const Loads& loads, MatrixXd& 
       add(drag->by_gradient * (-side * turn) * at.second.dr, numbering_.coordinate[c.second],
           &kept_[c.second]);
       add(drag->by_gradient * -way, numbering_.strand[k], nullptr);
-      if (gauges_.travel != Travel::free) continue;
+      if (travel() != Travel::free) continue;
       const auto with = [&](double travel) {
         here.travel = travel;
         return joints_[joint]->drag_of_push(coordinates(x, joint), here, -push * way)->value;

@@ -35,7 +35,7 @@ void Chain::factor(const VectorXd& x, const Loads& loads, const MatrixXd& b_aske
     d.col(last).setZero();
     d(last, last) = corner;
   };
-  if (gauges_.phase && !half())  // J + g gᵀ
+  if (gauges_.phase && spins(Purpose::even))  // J + g gᵀ
     add_border(phase_motion(Purpose::equilibrium, numbering_, x, loads), -1.0);
   for (int i = 0; i < link_count(); ++i)
     for (const bvp::Held& held : links_[i].arc->held()) {

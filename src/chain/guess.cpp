@@ -153,28 +153,35 @@ VectorXd guess_state(const Chain& chain, const Topology& topology, const RodKind
   return x;
 }
 
-Profile mirrored(const Profile& half) {
-  const Vector3d turn(-1.0, 1.0, -1.0);
-  const Eigen::Vector4d q0 = half.pieces.front().q.col(0), j(0, 0, 1, 0), i(0, 1, 0, 0);
-  const double sign = rod::product(j, rod::product(q0, i)).dot(q0) < 0.0 ? -1.0 : 1.0;
+Profile unfolded(const Profile& half, Symmetry symmetry) {
+  const Vector3d place = contact::image(symmetry), moment = contact::image_of_moment(symmetry);
+  const bool turned = symmetry == Symmetry::half_turn;
+  // Directors: (S d₁, −S d₂, −S d₃) under the half-turn, (S d₁, S d₂, −S d₃) in the mirror; half-turns about e_y and d₁, e_x and d₃.
+  const Eigen::Vector4d i(0, 1, 0, 0), outer = turned ? Eigen::Vector4d(0, 0, 1, 0) : i,
+                                       inner = turned ? i : Eigen::Vector4d(0, 0, 0, 1);
+  const auto frame = [&](const Eigen::Vector4d& q) {
+    return Eigen::Vector4d(rod::product(outer, rod::product(q, inner)));
+  };
+  const Eigen::Vector4d q0 = half.pieces.front().q.col(0);
+  const double sign = frame(q0).dot(q0) < 0.0 ? -1.0 : 1.0;
   Profile out;
   out.obstacles = half.obstacles;
   out.material = half.material;
   out.radius = half.radius;
   out.unit_length = half.unit_length;
+  out.travelled = half.travelled;
   for (auto piece = half.pieces.rbegin(); piece != half.pieces.rend(); ++piece) {
     Piece image = *piece;
     image.s = -piece->s.reverse();
     image.angle = -piece->angle.reverse();
     image.heading = -piece->heading.reverse();
     image.p = piece->p.reverse();
-    image.inclination = piece->inclination.reverse();
-    image.r = turn.asDiagonal() * piece->r.rowwise().reverse();
-    image.n = -(turn.asDiagonal() * piece->n.rowwise().reverse());
-    image.m = -(turn.asDiagonal() * piece->m.rowwise().reverse());
+    image.inclination = -place(2) * piece->inclination.reverse();
+    image.r = place.asDiagonal() * piece->r.rowwise().reverse();
+    image.n = -(place.asDiagonal() * piece->n.rowwise().reverse());
+    image.m = moment.asDiagonal() * piece->m.rowwise().reverse();
     const Eigen::Index count = piece->s.size();
-    for (Eigen::Index k = 0; k < count; ++k)
-      image.q.col(k) = sign * rod::product(j, rod::product(piece->q.col(count - 1 - k), i));
+    for (Eigen::Index k = 0; k < count; ++k) image.q.col(k) = sign * frame(piece->q.col(count - 1 - k));
     out.pieces.push_back(image);
   }
   out.pieces.insert(out.pieces.end(), half.pieces.begin(), half.pieces.end());

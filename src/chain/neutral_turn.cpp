@@ -21,7 +21,9 @@ double median(VectorXd values) {
 }
 
 Chain::Turn Chain::turn_to_expect(const VectorXd& x, const Loads& loads) const {
-  Turn turn{*neutral_turn_ == Parity::odd ? Vector3d::UnitX() : Vector3d::UnitY(), 0.0};
+  const bool mirrored = half() && !contact::reverses_height(*gauges_.symmetry);
+  const bool about_x = (*neutral_turn_ == Parity::odd) != mirrored;
+  Turn turn{about_x ? Vector3d::UnitX() : Vector3d::UnitY(), 0.0};
   for (const int j : {0, joint_count() - 1}) {
     if (joints_[j]->kind() != JointKind::end) continue;
     const Attachment end = attachment(Purpose::equilibrium, x, loads, j, j == 0 ? Side::right : Side::left);

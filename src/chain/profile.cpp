@@ -345,7 +345,7 @@ double total_contact_force(const Chain& chain, const Topology& topology, const R
     if (chain.on_obstacle(i) && (rod.strut || topology.pushed_by(i) == 0)) {
       const Vector3d normal = chain.joint(i).chart(chain.coordinates(x, i)).normal;
       sum += copies(topology, i) *
-             (force_before(i, n_before, n_first) - n_first - strand_push(chain, x, i)).dot(normal);
+             (force_before(topology, i, n_before, n_first) - n_first - strand_push(chain, x, i)).dot(normal);
     }
     n_before = n_last;
   }

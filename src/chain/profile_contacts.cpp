@@ -11,8 +11,8 @@ namespace windlass::chain {
 using contact::JointKind;
 using Eigen::Vector3d;
 
-Vector3d force_before(int joint, const Vector3d& before, const Vector3d& after) {
-  return joint > 0 ? before : Vector3d(after(0), -after(1), after(2));  // the half-turn about e_y, reversed
+Vector3d force_before(const Topology& topology, int joint, const Vector3d& before, const Vector3d& after) {
+  return joint > 0 ? before : Vector3d(-contact::image(topology.symmetry).cwiseProduct(after));
 }
 
 Vector3d strand_push(const Chain& chain, const VectorXd& x, int joint) {
@@ -27,10 +27,10 @@ double copies(const Topology& topology, int joint) {
 namespace {
 
 /// Of the internal force at a joint, from before it to behind.
-Vector3d jump(const std::vector<Piece>& pieces, int joint) {
+Vector3d jump(const Topology& topology, const std::vector<Piece>& pieces, int joint) {
   const Vector3d after = pieces[joint].n.col(0);
   const Vector3d before = joint > 0 ? Vector3d(pieces[joint - 1].n.rightCols<1>()) : after;
-  return force_before(joint, before, after) - after;
+  return force_before(topology, joint, before, after) - after;
 }
 
 /// Contacts with an obstacle.
@@ -45,7 +45,7 @@ Contact obstacle_contact(const Chain& chain, const Topology& topology, const rod
   c.r = here.r;
   c.normal = c.surface_normal = here.normal;
   const Piece& after = pieces[j];
-  c.force = jump(pieces, j).dot(c.normal);
+  c.force = jump(topology, pieces, j).dot(c.normal);
   const Vector3d t = rod::directors(after.q.col(0)).col(2);
   const Eigen::Vector2d along = here.tangents.transpose() * t;
   c.gap_curvature = curvature(material, after, 0).dot(c.normal) + along.dot(here.bend * along);
@@ -75,7 +75,7 @@ Contact strand_contact(const Chain& chain, const Topology& topology, const rod::
   if (const obstacle::Surface* surface = chain.joint(j).surface()) {
     c.obstacle = topology.obstacle(j);
     c.surface_normal = surface->normal(c.r);
-    c.reaction = (jump(pieces, j) - c.force * c.normal).dot(c.surface_normal);
+    c.reaction = (jump(topology, pieces, j) - c.force * c.normal).dot(c.surface_normal);
   }
   const Vector3d first = curvature(material, pieces[with.first], 0),
                  second = with.image().cwiseProduct(curvature(material, pieces[with.second], 0));
@@ -97,8 +97,7 @@ double last(const Piece& piece) { return piece.angle(piece.angle.size() - 1); }
 
 /// Is it a plate beside a cylinder? It does not know how often the rod has gone round.
 bool on_plate(const Contact& c, const obstacle::Set& obstacles) {
-  return c.coupling < 0 && c.obstacle > 0 && obstacles[c.obstacle].curvature() == 0.0 &&
-         obstacles[0].curvature() != 0.0;
+  return c.coupling < 0 && c.obstacle > 0 && obstacles[0].curvature() != 0.0;
 }
 
 /// Beyond plates, and beyond strands beside them, the rod goes on where it is, outward from the contacts of the cylinder.

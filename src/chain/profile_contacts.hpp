@@ -13,7 +13,8 @@ void add_contacts(const Chain& chain, const Topology& topology, const VectorXd& 
 double copies(const Topology& topology, int joint);
 
 /// Internal force before a joint; at the mid-point of a half chain the image of the force behind.
-Eigen::Vector3d force_before(int joint, const Eigen::Vector3d& before, const Eigen::Vector3d& after);
+Eigen::Vector3d force_before(const Topology& topology, int joint, const Eigen::Vector3d& before,
+                             const Eigen::Vector3d& after);
 
 /// Force of another strand on a joint.
 Eigen::Vector3d strand_push(const Chain& chain, const VectorXd& x, int joint);

@@ -40,7 +40,7 @@ std::vector<Approach> approaches(const Profile& profile, const Topology& topolog
   std::vector<Approach> out;
   if (profile.radius == 0.0) return out;
   Profile image;
-  if (topology.half) image = chain::mirrored(profile);
+  if (topology.half) image = unfolded(profile, topology.symmetry);
   const Profile& whole = topology.half ? image : profile;
   const Centreline curve(whole);
   const std::vector<Touch> known = touches(profile, topology);

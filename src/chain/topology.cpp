@@ -9,6 +9,7 @@
 #include "windlass/bvp/collocation_arc.hpp"
 #include "windlass/contact/planar_joints.hpp"
 #include "windlass/contact/plate_joints.hpp"
+#include "windlass/contact/rim_joint.hpp"
 #include "windlass/contact/spatial_joints.hpp"
 #include "windlass/rod/closed_form_arcs.hpp"
 #include "windlass/rod/dragged_line_arc.hpp"
@@ -30,10 +31,20 @@ const char* word(Stretch stretch) {
   return stretch == Stretch::line ? "line" : stretch == Stretch::gap ? "gap" : "tail";
 }
 
-/// The section or touch where the half-turn maps the rod to itself.
+/// The section or touch that its symmetry maps to itself.
 std::unique_ptr<Joint> symmetric_joint(const RodKind& rod, const Topology& t) {
+  if (t.lies_flat(0))
+    return std::make_unique<spatial::FlatSection>(rod.obstacles.pointer(t.obstacle(0)),
+                                                  rod.obstacles.pointer(t.seat(0).flat));
+  if (t.touches_flat(0))
+    return std::make_unique<spatial::FlatTouch>(rod.obstacles.pointer(t.obstacle(0)),
+                                                rod.obstacles.pointer(t.seat(0).flat));
+  if (t.stretches.front() == Stretch::line && t.seat(0).stop >= 0)
+    return std::make_unique<spatial::Stopped>(rod.obstacles.pointer(t.obstacle(0)),
+                                              rod.obstacles.pointer(t.seat(0).stop), true);
   if (t.stretches.front() == Stretch::line) {
-    if (rod.spatial) return std::make_unique<spatial::SurfaceSection>(rod.obstacles.pointer(t.obstacle(0)));
+    if (rod.spatial)
+      return std::make_unique<spatial::SurfaceSection>(rod.obstacles.pointer(t.obstacle(0)), t.symmetry);
     return std::make_unique<planar::SurfaceSection>();
   }
   if (t.mid_touch) {
@@ -114,6 +125,8 @@ std::unique_ptr<Joint> contact_joint(const RodKind& rod, const Topology& t, int 
     if (t.touches_flat(joint))
       return std::make_unique<spatial::FlatTouch>(rod.obstacles.pointer(obstacle),
                                                   rod.obstacles.pointer(seat.flat));
+    if (auto rim = rod.spatial ? obstacle::as_rim(rod.obstacles.pointer(obstacle)) : nullptr)
+      return std::make_unique<spatial::RimTouch>(std::move(rim));
     if (rod.spatial) return std::make_unique<spatial::Touch>(rod.obstacles.pointer(obstacle));
     return std::make_unique<planar::Touch>();
   }
@@ -163,7 +176,8 @@ std::unique_ptr<Arc> make_arc(const RodKind& rod, Stretch stretch, int obstacle,
 }
 
 /// Parity, under the half-turn, of a turn of the whole rod that costs nothing: a flat rod on isolated touches turns about
-/// the pulls if they lie along one line, or about their direction, the normal of its mid-point, if they are parallel.
+/// the pulls if they lie along one line, or about their direction, the normal of its mid-point, if they are parallel. Under the
+/// mirror it is the other one.
 /// Ends that cannot spin turn with their rod only about one line.
 std::optional<contact::Parity> neutral_turn(const RodKind& rod, const Topology& t) {
   if (rod.guided) return std::nullopt;
@@ -172,7 +186,7 @@ std::optional<contact::Parity> neutral_turn(const RodKind& rod, const Topology& 
   if (!(std::abs(half_turns - whole) < nearly)) return std::nullopt;
   const std::vector<Stretch>& all = t.stretches;
   if (std::find(all.begin(), all.end(), Stretch::line) != all.end()) return std::nullopt;
-  for (int j = 1; j < static_cast<int>(all.size()); ++j)
+  for (int j = 0; j < static_cast<int>(all.size()); ++j)
     if (t.touches_flat(j)) return std::nullopt;  // the plate holds it
   if (std::remainder(whole, 2.0) == 0.0)
     return rod.holds_an_end() && !rod.isotropic_straight() ? std::nullopt
@@ -191,18 +205,16 @@ bool any_on_obstacle(const RodKind& rod, const Topology& t, const Condition& con
 }
 
 /// Does the rod touch an obstacle that does not let it move along the axis?
-bool on_plate(const RodKind& rod, const Topology& t) {
-  for (int j = 1; j < static_cast<int>(t.stretches.size()); ++j)
-    if (t.lies_flat(j) || t.touches_flat(j) ||
-        (t.seat(j).strand == 0 && rod.obstacles[t.pushed_by(j)].curvature() == 0.0))
-      return true;
+bool on_plate(const Topology& t) {
+  for (int j = t.half ? 0 : 1; j < static_cast<int>(t.stretches.size()); ++j)
+    if (t.lies_flat(j) || t.touches_flat(j) || (t.seat(j).strand == 0 && t.pushed_by(j) > 0)) return true;
   return false;
 }
 
 /// Which rigid motions cost nothing and are held, and how; see Chain::Gauges.
 Chain::Gauges gauges(const RodKind& rod, const Topology& t) {
   Chain::Gauges g;
-  g.half_turn = t.half;
+  if (t.half) g.symmetry = t.symmetry;
   if (rod.strut) {
     const bool touched = any_on_obstacle(rod, t, [](const obstacle::Surface&) { return true; });
     const bool pinned = rod.left != EndKind::clamped && rod.right != EndKind::clamped;
@@ -217,7 +229,7 @@ Chain::Gauges gauges(const RodKind& rod, const Topology& t) {
     g.knot = rod.knotted && !touched && !t.couplings().empty();
     return g;
   }
-  g.height = rod.spatial && rod.travel == Travel::none && !rod.guided && !on_plate(rod, t);
+  g.height = rod.spatial && rod.travel == Travel::none && !rod.guided && !on_plate(t);
   g.travel = rod.spatial ? rod.travel : Travel::none;
   g.spin = rod.spatial && !rod.holds_an_end() && rod.isotropic_straight();
   g.slide = true;
@@ -236,6 +248,14 @@ Topology unfolded(const Topology& t) {
   whole.stretches.insert(whole.stretches.end(), t.stretches.begin() + skipped, t.stretches.end());
   if (t.on.empty()) return whole;
   whole.on.assign(t.on.rbegin(), t.on.rend() - 1);
+  for (int j = 1; j < static_cast<int>(whole.on.size());
+       ++j) {  // of a line its beginning says that it lies flat
+    const int link = static_cast<int>(t.stretches.size()) - 1 - j;
+    if (t.stretches[link] == Stretch::line)
+      whole.on[j].flat = t.seat(link).flat;
+    else if (whole.stretches[j - 1] == Stretch::line)
+      whole.on[j].flat = -1;
+  }
   const Strands strands(t);
   const int shift = static_cast<int>(t.on.size());
   for (int j = 0; j < static_cast<int>(whole.on.size()); ++j) {
@@ -264,6 +284,19 @@ Topology unfolded(const Topology& t) {
     whole.on[c.mirrored ? right(c.second) : left(c.second)].strand = other;
   }
   return whole;
+}
+
+Topology folded(const Topology& whole, Symmetry symmetry) {
+  if (whole.half) throw std::invalid_argument("a half chain is not folded again");
+  const std::size_t count = whole.stretches.size(), first = count / 2;
+  Topology out;
+  out.symmetry = symmetry;
+  out.mid_touch = count % 2 == 0;
+  out.stretches.assign(whole.stretches.begin() + static_cast<std::ptrdiff_t>(first), whole.stretches.end());
+  if (!whole.on.empty()) out.on.assign(whole.on.begin() + static_cast<std::ptrdiff_t>(first), whole.on.end());
+  // A free section at the middle touches nothing.
+  if (!out.on.empty() && !out.mid_touch && out.stretches.front() != Stretch::line) out.on.front() = {};
+  return out;
 }
 
 std::vector<Coupling> Topology::couplings() const {
@@ -314,6 +347,7 @@ std::string Topology::text() const {
 
 bool Topology::operator==(const Topology& other) const {
   if (stretches != other.stretches || half != other.half || mid_touch != other.mid_touch) return false;
+  if (half && symmetry != other.symmetry) return false;
   for (int j = 0; j <= static_cast<int>(stretches.size()); ++j)
     if (seat(j).obstacle != other.seat(j).obstacle || seat(j).stop != other.seat(j).stop ||
         seat(j).middle != other.seat(j).middle || seat(j).flat != other.seat(j).flat)
@@ -352,7 +386,11 @@ std::unique_ptr<Chain> build_chain(const RodKind& rod, const Topology& t,
   }
   auto chain = std::make_unique<Chain>(std::move(joints), std::move(fixed), std::move(links), gauges(rod, t),
                                        t.couplings());
-  if (const auto parity = neutral_turn(rod, t)) chain->expect_neutral_turn(*parity);
+  if (auto parity = neutral_turn(rod, t)) {
+    const bool other = t.half && !contact::reverses_height(t.symmetry);
+    if (other) parity = *parity == contact::Parity::odd ? contact::Parity::even : contact::Parity::odd;
+    chain->expect_neutral_turn(*parity);
+  }
   return chain;
 }
 

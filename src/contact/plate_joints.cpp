@@ -72,6 +72,15 @@ void Stopped::adopt(const Place& place, double* w) const {
   w[0] = flat(0), w[1] = 0.0, w[2] = flat(1);
 }
 
+FlatSection::FlatSection(SurfacePointer line, const SurfacePointer& plate)
+    : line_(std::move(line)), height_(height_of(*plate)) {}
+
+Attachment FlatSection::attach(Side, const double* w, const Loads&) const { return lying_flat(w); }
+
+void FlatSection::adopt(const Place& place, double* w) const {
+  Eigen::Map<Vector2d>{w} = flat_coordinates(line_, place);
+}
+
 FlatEdge::FlatEdge(Side line_side, double bending_stiffness, SurfacePointer line, const SurfacePointer& plate)
     : line_(line_side), edge_(line_side, bending_stiffness, std::move(line)), height_(height_of(*plate)) {}
 

@@ -354,8 +354,10 @@ void SurfaceSection::adopt(const Place& place, double* w) const {
   u = surface_->coordinates(place.r, place.angle);
   const rod::Quaternion base = surface_->base_frame(u);
   const Eigen::Vector2d turned = surface_coordinates(place.q, base);
-  w[2] = turned(0);
-  w[3] = M_PI * std::round(turned(1) / M_PI);  // the half-turn about N keeps frames with d₁ = ±N
+  // The half-turn about N keeps frames with d₁ = ±N, the mirror those of a rod along u₀.
+  const bool mirrored = symmetry_ == Symmetry::mirror;
+  w[2] = mirrored ? 0.0 : turned(0);
+  w[3] = mirrored ? turned(1) : M_PI * std::round(turned(1) / M_PI);
   adopt_sign(place.q, base, w + 2);
 }
 

@@ -10,6 +10,7 @@
 #include "strip.hpp"
 #include "touch_dip.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
+#include "windlass/obstacle/rim.hpp"
 
 namespace windlass::equilibrium {
 
@@ -213,8 +214,21 @@ Successor end_of_rod(const Strip& strip) {
   return next;
 }
 
-/// What touches a plate at its outer edge presses on that edge: another contact.
-Successor at_the_rim(const Strip& strip) {
+/// What touches a plate at its outer edge presses on that edge next, which comes behind it in the scene, and the other way round. Lines
+/// and strands do not, nor what reaches the plate's outer side.
+Successor past_the_rim(const ContactEvent& event, Strip strip, const Profile& profile) {
+  const int j = event.place;
+  chain::Seat& seat = strip.on[j];
+  const auto rim = obstacle::as_rim(profile.obstacles.pointer(seat.obstacle));
+  const auto here = std::find_if(profile.contacts.begin(), profile.contacts.end(),
+                                 [&](const chain::Contact& c) { return c.joint == j; });
+  const bool touch = seat.strand == 0 && seat.flat < 0 && !strip.is_line(j - 1) && !strip.is_line(j);
+  constexpr double half_way = 0.5;  // of the force's tilt, by the square of its sine
+  const bool to_plate = rim && std::pow(rim->across(here->r, here->normal)(0), 2) < half_way;
+  if (touch && (!rim || to_plate)) {
+    seat.obstacle += rim ? -1 : 1;
+    return strip.successor();
+  }
   Successor next = strip.successor();
   next.at_rim = true;
   return next;
@@ -375,7 +389,7 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
     case Kind::buckling:
       return {bowed(event.place, strip)};
     case Kind::rim:
-      return {at_the_rim(strip)};
+      return {past_the_rim(event, strip, profile)};
     case Kind::reaction:
       return strand_lifts(event.place, strip);
     case Kind::approach:

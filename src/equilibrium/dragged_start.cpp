@@ -35,6 +35,33 @@ std::optional<double> levels_off(const Piece& tail, bool leftward, double slope)
   return std::nullopt;
 }
 
+/// Where a tail comes out from under a plate of this radius.
+std::optional<double> comes_out(const Piece& tail, bool leftward, double outer_radius) {
+  const Eigen::Index last = tail.s.size() - 1;
+  for (Eigen::Index k = 1; k <= last; ++k) {
+    const Eigen::Index at = leftward ? last - k : k, before = leftward ? at + 1 : at - 1;
+    const double here = tail.r.col(at).head<2>().norm() - outer_radius,
+                 last_one = tail.r.col(before).head<2>().norm() - outer_radius;
+    if (last_one < 0.0 && here >= 0.0)
+      return tail.s(before) - (tail.s(at) - tail.s(before)) * last_one / (here - last_one);
+  }
+  return std::nullopt;
+}
+
+/// Where a plate first holds a tail that rises, and on which obstacle: its surface, or its outer edge.
+struct Hold {
+  double s;
+  int obstacle;
+};
+std::optional<Hold> held_at(const Piece& tail, bool leftward, double slope, const scene::Plate& its_plate) {
+  const std::optional<double> level = levels_off(tail, leftward, slope);
+  if (!std::isfinite(its_plate.outer_radius))
+    return level ? std::optional(Hold{*level, plate}) : std::nullopt;
+  const std::optional<double> out = comes_out(tail, leftward, its_plate.outer_radius);
+  if (out && (!level || std::abs(*out) < std::abs(*level))) return Hold{*out, plate + 1};
+  return level ? std::optional(Hold{*level, plate}) : std::nullopt;
+}
+
 /// The rod round a cylinder that stands, and no plate.
 scene::Scene standing(scene::Scene scene) {
   scene.plate.reset();
@@ -117,16 +144,16 @@ std::optional<Started> under_the_plate(const Started& still, const scene::Scene&
     const Piece& tail = leftward ? shape.pieces.front() : shape.pieces.back();
     constexpr double as_high = 1e-6;
     if (height_of_end(tail, leftward) < top - as_high) continue;
-    const std::optional<double> at = levels_off(tail, leftward, slope);
+    const std::optional<Hold> at = held_at(tail, leftward, slope, *scene.plate);
     if (!at)
       return failure = "the tail that is highest is shorter than where the plate would hold it", std::nullopt;
     const int link = leftward ? 0 : static_cast<int>(topology.stretches.size()) - 1;
     topology.stretches.insert(topology.stretches.begin() + link, topology.stretches[link]);
     topology.stretches[leftward ? 1 : link] = Stretch::gap;
-    topology.on.insert(topology.on.begin() + link + 1, chain::Seat{plate});
-    s.insert(s.begin() + link + 1, *at);
+    topology.on.insert(topology.on.begin() + link + 1, chain::Seat{at->obstacle});
+    s.insert(s.begin() + link + 1, at->s);
     meshes.insert(meshes.begin() + link, meshes[link]);
-    height = shape.at(*at).r(2);
+    height = shape.at(at->s).r(2);
     touched = true;
   }
   if (!touched) return failure = "no tail rises to the highest place", std::nullopt;
@@ -207,7 +234,10 @@ Started flat_on_plate(const scene::Scene& scene, const std::vector<std::string>&
   auto laid =
       on_contacts({topology, s, still->problem->meshes()}, shape, scene.plate->height, scene, keys, {});
   if (!laid) throw NoEquilibrium("Newton did not converge on the flat coil on its plate");
-  return *laid;
+  if (!scene.mirrored()) return *laid;
+  const auto half = fold(*laid->problem, laid->x, laid->p, chain::Symmetry::mirror);
+  if (!half) throw NoEquilibrium("Newton did not converge on half of the flat coil on its plate");
+  return *half;
 }
 
 namespace {
@@ -316,16 +346,16 @@ std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector
   // Next to nothing; with more friction the plate holds the tail nearer to the coil, so that short tails need more.
   constexpr double least = 1e-3, next = 2.0, most = 0.1;
   const double goal = scene.dragging_friction();
-  scene::Scene endless = scene;  // with little friction the plate holds the tail far out
-  endless.plate->outer_radius = HUGE_VAL;
-  std::vector<Started> out;
+  std::vector<Started> out = scene.mirrored() ? hanging_arches(scene, keys) : std::vector<Started>();
+  const std::size_t arches = out.size();
   int followed = 0, points = 0, beyond = 0;
   for (const FoundState& still : search(standing(scene), true, false, {"load.tension"}).states) {
     if (still.fingerprint(2) < flat) continue;
     std::optional<Started> start;
     std::string failure;
     for (double mu = std::min(least, 0.5 * goal); !start && mu < std::min(most, goal); mu *= next)
-      start = under_the_plate(still.at, endless, mu, failure);
+      start = under_the_plate(still.at, scene, mu, failure);
+    if (start && scene.mirrored()) start = fold(*start->problem, start->x, start->p, chain::Symmetry::mirror);
     if (!start) continue;
     ++followed;
     continuation::Options options;
@@ -353,6 +383,7 @@ std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector
   }
   searched = fmt::format("{} states without friction dragged to mu = {:.4g} and as far again, {} points",
                          followed, goal, points);
+  if (scene.mirrored()) searched += fmt::format("; {} that hang from the plate on both sides", arches);
   if (beyond > 0)
     searched += fmt::format("; {} would touch the plate beyond plate.outer_radius = {:.6g}", beyond,
                             scene.plate->outer_radius);

@@ -80,7 +80,8 @@ Started weighted_strut(const scene::Scene& scene, bool half, const std::vector<s
     if (scene.rod.weight[k] != 0.0) ways.emplace_back(components[k]);
   chain::Profile shape = without.problem->profile(without.x, without.p);
   const std::vector<double> s = without.problem->joint_places(without.x, without.p, shape);
-  const chain::Profile whole = without.problem->topology().half ? chain::mirrored(shape) : shape;
+  const chain::Profile whole =
+      without.problem->topology().half ? chain::unfolded(shape, chain::Symmetry::half_turn) : shape;
   if (scene.rod.natural_curvature == 0.0 && scene.rod.natural_twist == 0.0)
     shape = turned(shape, turn_to_hang(whole, loads_of(light), scene.rod.isotropic_straight()));
   auto problem =

@@ -54,7 +54,7 @@ std::vector<int> edges_of(const chain::Chain& chain, const std::vector<int>& ope
   std::vector<int> edges;
   for (const int link : opened)
     for (const int joint : {link, link + 1})
-      if (finds_place(chain, joint)) edges.push_back(joint);
+      if (finds_place(chain, joint) && chain.locates(joint)) edges.push_back(joint);
   return edges;
 }
 

@@ -81,16 +81,17 @@ JointRecord end_record(const ArcRecord& arc, bool at_end, bool infinite) {
   return joint;
 }
 
-JointRecord contact_record(const chain::Contact& c, double sign) {
+/// @param side  −1: the contact's image
+JointRecord contact_record(const chain::Contact& c, int side, chain::Symmetry symmetry) {
+  const Vector3d image = side > 0 ? Vector3d(Vector3d::Ones()) : contact::image(symmetry);
   JointRecord joint;
   joint.kind = c.edge ? JointKind::edge : c.obstacle < 0 ? JointKind::strand : JointKind::touch;
-  joint.s = sign * c.s;
-  joint.angle = sign * c.angle;
-  joint.z = sign * c.z;
+  joint.s = side * c.s;
+  joint.angle = side * c.angle;
+  joint.z = image(2) * c.z;
   joint.force = c.coupling < 0 ? c.force : c.reaction.value_or(0.0);
   if (c.coupling >= 0) joint.strand_force = c.force;
   joint.obstacle = c.obstacle;
-  const Vector3d image(sign, 1.0, sign);  // under the half-turn, for sign = −1
   joint.r = image.cwiseProduct(c.r);
   joint.normal = image.cwiseProduct(c.surface_normal);
   return joint;
@@ -103,10 +104,12 @@ struct Placed {
   Vector3d push = Vector3d::Zero();  ///< of another strand
 };
 
-Placed placed_contact(const chain::Contact& c, int side) {
-  const Vector3d image(side, 1.0, side);  // under the half-turn, for side = −1
-  Placed out{contact_record(c, side), c.joint, side};
-  if (c.coupling >= 0) out.push = c.force * image.cwiseProduct(c.normal);
+Placed placed_contact(const chain::Contact& c, int side, chain::Symmetry symmetry) {
+  Placed out{contact_record(c, side, symmetry), c.joint, side};
+  if (c.coupling >= 0) {
+    out.push = c.force * c.normal;
+    if (side < 0) out.push = contact::image(symmetry).cwiseProduct(out.push);
+  }
   return out;
 }
 
@@ -175,8 +178,9 @@ void assemble(const chain::Profile& shape, const chain::Profile& whole, const To
   std::vector<Placed> contacts;
   if (topology.half)
     for (std::size_t j = shape.contacts.size(); j-- > 0;)
-      if (!(topology.mid_touch && j == 0)) contacts.push_back(placed_contact(shape.contacts[j], -1));
-  for (const chain::Contact& c : shape.contacts) contacts.push_back(placed_contact(c, 1));
+      if (!(topology.mid_touch && j == 0))
+        contacts.push_back(placed_contact(shape.contacts[j], -1, topology.symmetry));
+  for (const chain::Contact& c : shape.contacts) contacts.push_back(placed_contact(c, 1, topology.symmetry));
   if (topology.half && !topology.mid_touch) {  // the mid-point is no joint: its stretch spans both halves
     const std::size_t middle = topology.stretches.size();
     append(arcs[middle - 1], arcs[middle]);
@@ -285,7 +289,7 @@ Solution record(RodProblem& problem, const Vector& x, const Vector& p) {
   out.model = !problem.spatial() ? "planar" : topology.half ? "kirchhoff_half" : "kirchhoff_full";
   out.converged = true;
   out.topology = scene.has_cylinder || topology.contact() ? topology.text() : "strut";
-  const chain::Profile image = topology.half ? chain::mirrored(shape) : chain::Profile();
+  const chain::Profile image = topology.half ? chain::unfolded(shape, topology.symmetry) : chain::Profile();
   const chain::Profile& whole = topology.half ? image : shape;
   assemble(shape, whole, topology, problem.rod().infinite, out);
   if (const auto self = chain::self_distance(whole, scene.rod_radius)) {
@@ -307,7 +311,10 @@ Solution record(RodProblem& problem, const Vector& x, const Vector& p) {
       out.joints[j].holding = -share * problem.chain().holding_force(x);
   for (const ArcRecord& arc : out.arcs) out.R_tot += arc.force;
   for (const JointRecord& joint : out.joints)
-    (scene.has_cylinder && joint.obstacle > 0 ? out.plate_force : out.R_tot) += joint.force;
+    if (scene.has_cylinder && joint.obstacle > 0)
+      out.plate_force += std::abs(joint.normal.z()) * joint.force;  // its outer edge pushes aside, too
+    else
+      out.R_tot += joint.force;
   if (scene.has_cylinder) {
     if (scene.friction) out.F0 = *scene.friction * out.R_tot;
     record_drag(problem, x, loads, scene, out);

@@ -11,15 +11,24 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Of each arc of the record, its link: what vanishes at an event has none.
-std::vector<int> links_of(const Solution& state, const RodProblem& problem, const Vector& x,
-                          const contact::Loads& loads) {
+/// Arclengths of the joints of the whole rod.
+std::vector<double> places_of(const RodProblem& problem, const Vector& x, const contact::Loads& loads) {
+  const chain::Chain& chain = problem.chain();
+  const Topology& topology = problem.topology();
+  std::vector<double> out;
+  for (int j = chain.joint_count(); topology.half && j-- > 1;) out.push_back(-chain.arclength(x, loads, j));
+  const bool spanned = topology.half && !topology.mid_touch;  // the middle is no joint
+  for (int j = spanned ? 1 : 0; j < chain.joint_count(); ++j) out.push_back(chain.arclength(x, loads, j));
+  return out;
+}
+
+/// Of each arc of the record, its link in the whole rod: what vanishes at an event has none.
+std::vector<int> links_of(const Solution& state, const std::vector<double>& places) {
   std::vector<int> out;
   int link = 0;
   for (const ArcRecord& arc : state.arcs) {
-    while (link + 1 < problem.chain().link_count() &&
-           (problem.chain().arclength(x, loads, link) != arc.s_begin ||
-            problem.chain().arclength(x, loads, link + 1) != arc.s_end))
+    while (link + 2 < static_cast<int>(places.size()) &&
+           (places[link] != arc.s_begin || places[link + 1] != arc.s_end))
       ++link;
     out.push_back(link++);
   }
@@ -128,10 +137,11 @@ void record_drag(const RodProblem& problem, const Vector& x, const contact::Load
   }
   const double travelled = problem.chain().travelled(x);
   (scene.ends.travel == scene::Travel::free ? out.travel_rate : out.pull_difference) = travelled;
-  const std::vector<int> links = links_of(out, problem, x, loads);
-  const double on_plate = drag_on_plate(out, problem.topology(), links, *scene.friction, loads.compliance);
-  out.plate_force += on_plate + push_on_plate(out, problem.topology(), links);
-  out.F0 = on_plate + axial_drag(out, problem.topology(), links);
+  const std::vector<int> links = links_of(out, places_of(problem, x, loads));
+  const Topology whole = chain::unfolded(problem.topology());
+  const double on_plate = drag_on_plate(out, whole, links, *scene.friction, loads.compliance);
+  out.plate_force += on_plate + push_on_plate(out, whole, links);
+  out.F0 = on_plate + axial_drag(out, whole, links);
 }
 
 }  // namespace windlass::equilibrium

@@ -15,6 +15,7 @@ std::string chain_of(const RodProblem& problem) {
   chain["spatial"] = problem.spatial();
   chain["half"] = problem.topology().half;
   chain["mid_touch"] = problem.topology().mid_touch;
+  if (problem.topology().symmetry == chain::Symmetry::mirror) chain["mirror"] = true;
   const scene::Units& units = problem.units();
   chain["units"] = {{"length", units.length}, {"bending_stiffness", units.bending_stiffness}};
   for (const Stretch stretch : problem.topology().stretches)
@@ -51,6 +52,7 @@ std::shared_ptr<RodProblem> rebuild(const scene::Scene& scene, const std::string
   Topology topology;
   topology.half = chain.at("half");
   topology.mid_touch = chain.at("mid_touch");
+  if (chain.value("mirror", false)) topology.symmetry = chain::Symmetry::mirror;
   for (int k : chain.at("stretches")) topology.stretches.push_back(static_cast<Stretch>(k));
   const auto on = chain.value("on", std::vector<int>()), strands = chain.value("strands", std::vector<int>());
   const auto parts = chain.value("parts", std::vector<double>());

@@ -1,8 +1,10 @@
 // Negative directions of a rod's second variation, as a branch follows them.
 #include <algorithm>
 
+#include "windlass/chain/singular_matrix.hpp"
 #include "windlass/chain/variation.hpp"
 #include "windlass/equilibrium/rod_problem.hpp"
+#include "windlass/equilibrium/start.hpp"
 
 namespace windlass::equilibrium {
 
@@ -29,9 +31,38 @@ void RodProblem::count_sliding(const Vector& x, const Loads& at) {
   sliding_off_ = off - *sliding_reference_;
 }
 
+namespace {
+
+/// Sign of det J of the equilibrium equations at a state; 0: J is singular.
+int sign_of_determinant(RodProblem& problem, const Vector& x, const Vector& p) {
+  const Eigen::MatrixXd none(problem.size(), 0);
+  try {
+    problem.factor(x, p, none, none, Eigen::MatrixXd(0, 0));
+    return problem.determinant_sign();
+  } catch (const chain::SingularMatrix&) {
+    return 0;
+  }
+}
+
+}  // namespace
+
+// On even and odd motions together det J of the full chain is a product, up to a factor of the mesh: the second one's sign, which
+// says where odd motions of a load without potential lose their stability one by one.
+int RodProblem::breaking_sign(const Vector& x, const Vector& p) {
+  const Started whole = image_on_full_chain(*this, x, p);
+  RodProblem half(scene_at(p), spatial_, topology_, meshes_,
+                  keys_);  // this one's factors are still asked for
+  return sign_of_determinant(*whole.problem, whole.x, p) * sign_of_determinant(half, x, p);
+}
+
 int RodProblem::breaking_index(const Vector& x, const Vector& p) {
-  if (!topology_.half || dragged()) return -1;
+  if (!topology_.half) return -1;
   const Loads at = loads(p);
+  if (dragged()) {
+    const int sign = breaking_index_ < 0 || !degenerate(x, at) ? breaking_sign(x, p) : 0;
+    if (sign != 0) breaking_index_ = sign < 0 ? 1 : 0;
+    return breaking_index_;
+  }
   if (breaking_index_ < 0 || !degenerate(x, at)) {
     breaking_index_ = count(x, p, contact::Parity::odd, breaking_index_);
     count_sliding(x, at);

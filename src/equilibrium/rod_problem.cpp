@@ -24,6 +24,9 @@ namespace {
 
 using contact::Loads;
 
+/// Does the plate end? Its edge is as round as the rod is thick (obstacle::Rim).
+bool has_rim(const scene::Scene& scene) { return scene.plate && std::isfinite(scene.plate->outer_radius); }
+
 /// Parameters that change loads only; all others rebuild the arcs.
 double Loads::*field_of(const std::string& key, const scene::Scene& scene) {
   if (key == "load.tension") return &Loads::tension;
@@ -32,6 +35,7 @@ double Loads::*field_of(const std::string& key, const scene::Scene& scene) {
   if (key == "ends.shortening") return &Loads::shortening;
   if (key == "ends.twist") return &Loads::twist;
   if (key == "ends.guide_offset") return &Loads::guide_offset;
+  if (key == "rod.radius" && has_rim(scene)) return nullptr;
   if (key == "rod.radius") return scene.friction_has_couple() ? &Loads::arm : &Loads::radius;
   if (key == "cylinder.friction") return &Loads::friction;
   if (key == "rod.axial_compliance") return &Loads::compliance;
@@ -114,7 +118,9 @@ const char* RodProblem::missing_on(const Topology& topology) const {
   const auto asked = [&](double Loads::*field) {
     return base_.*field != 0.0 || std::find(fields_.begin(), fields_.end(), field) != fields_.end();
   };
-  if (asked(&Loads::arm) && !(spatial_ && carries_couple(topology))) return "cylinder.friction_couple";
+  const bool thickens = std::find(keys_.begin(), keys_.end(), "rod.radius") != keys_.end();
+  const bool couple = asked(&Loads::arm) || (thickens && scene_.friction_has_couple());
+  if (couple && !(spatial_ && carries_couple(topology))) return "cylinder.friction_couple";
   if (rod_.travel != chain::Travel::none && asked(&Loads::compliance) &&
       !carries_stretch(topology, rod_.travel))
     return "rod.extensible";
@@ -151,9 +157,9 @@ Loads RodProblem::loads(const Vector& p) {
     changed = true;
   }
   if (changed) {
-    // Lengths live in the loads; only stiffness and natural strains are built into the arcs.
+    // Lengths live in the loads; only stiffness and natural strains are built into the arcs, and a plate's edge into joints.
     const chain::RodKind rod = rod_of(scene_, spatial_);
-    const bool arcs = rod.stiffness != rod_.stiffness || rod.natural != rod_.natural;
+    const bool arcs = rod.stiffness != rod_.stiffness || rod.natural != rod_.natural || has_rim(scene_);
     base_ = loads_of(scene_);
     if (arcs) rebuild();
   }

@@ -7,7 +7,7 @@ namespace windlass::equilibrium {
 using chain::Stretch;
 
 Strip::Strip(const chain::Topology& topology, const std::vector<double>& places)
-    : s(places), half(topology.half), mid_touch(topology.mid_touch) {
+    : s(places), half(topology.half), mid_touch(topology.mid_touch), symmetry(topology.symmetry) {
   for (int j = 0; j < static_cast<int>(s.size()); ++j) on.push_back(topology.seat(j));
   for (const Stretch kind : topology.stretches) parts.push_back({kind, static_cast<int>(parts.size())});
 }
@@ -22,6 +22,7 @@ Successor Strip::successor() const {
   out.s = s;
   out.topology.half = half;
   out.topology.mid_touch = mid_touch;
+  out.topology.symmetry = symmetry;
   std::vector<chain::Seat> contacts = on;  // the ends, and the section where a half chain begins, lie on none
   if (!mid_touch && !(half && parts.front().kind == Stretch::line)) contacts.front() = {};
   contacts.back() = {};

@@ -18,6 +18,7 @@ struct Strip {
   std::vector<double> s;                ///< bounds of the parts
   std::vector<chain::Seat> on;          ///< what the bounds touch, see chain::Topology
   bool half = true, mid_touch = false;  ///< see chain::Topology
+  chain::Symmetry symmetry = chain::Symmetry::half_turn;
 
   Strip(const chain::Topology& topology, const std::vector<double>& places);
   explicit Strip(const Successor& next);

@@ -1,6 +1,9 @@
 #include <algorithm>
 
+#include <cmath>
+
 #include "attempt.hpp"
+#include "windlass/rod/quaternion.hpp"
 
 namespace windlass::equilibrium {
 
@@ -32,10 +35,10 @@ bool is_state(RodProblem& problem, const Vector& y, const Vector& p) {
 
 }  // namespace
 
-Started unfold(RodProblem& halved, const Vector& x, const Vector& p, int iterations) {
+Started image_on_full_chain(RodProblem& halved, const Vector& x, const Vector& p) {
   // Through the recorded whole rod: sample the half, mirror it, and build the full chain on it.
   const chain::Profile half = halved.profile(x, p);
-  const chain::Profile whole = chain::mirrored(half);
+  const chain::Profile whole = chain::unfolded(half, halved.topology().symmetry);
   const Topology topology = chain::unfolded(halved.topology());
   const bool spanned = !halved.topology().mid_touch;  // the first stretch spans both halves
   std::vector<ArcMesh> meshes;
@@ -54,15 +57,76 @@ Started unfold(RodProblem& halved, const Vector& x, const Vector& p, int iterati
   std::vector<double> s;
   for (std::size_t j = right.size(); j-- > 1;) s.push_back(-right[j]);
   s.insert(s.end(), right.begin() + (spanned ? 1 : 0), right.end());
-  Vector y = chain::guess_state(problem->chain(), topology, problem->rod(), whole, s);
-  Vector polished = y;
-  const int used = problem->polish(polished, p);
+  return {problem, chain::guess_state(problem->chain(), topology, problem->rod(), whole, s), p, 0};
+}
+
+Started unfold(RodProblem& halved, const Vector& x, const Vector& p, int iterations) {
+  Started whole = image_on_full_chain(halved, x, p);
+  Vector polished = whole.x;
+  const int used = whole.problem->polish(polished, p);
   if (used >= 0)
-    y = polished;
-  else if (!is_state(*problem, y, p))
+    whole.x = polished;
+  else if (!is_state(*whole.problem, whole.x, p))
     throw NoEquilibrium("Newton did not converge on the full chain from its symmetric half");
-  problem->error_estimate(y, p);
-  return {problem, y, p, iterations + std::max(used, 0)};
+  whole.problem->error_estimate(whole.x, p);
+  whole.newton_iterations = iterations + std::max(used, 0);
+  return whole;
+}
+
+namespace {
+
+/// Is the shape its own image, to within what meshes leave?
+bool is_own_image(const chain::Profile& shape, chain::Symmetry symmetry) {
+  constexpr double same = 1e-6;  // of the unit of length
+  const Eigen::Vector3d image = contact::image(symmetry);
+  for (const chain::Piece& piece : shape.pieces)
+    for (Eigen::Index k = 0; k < piece.s.size(); k += piece.stride)
+      if (!((shape.at(-piece.s(k)).r - image.cwiseProduct(piece.r.col(k))).norm() < same * shape.unit_length))
+        return false;
+  return true;
+}
+
+/// The middle of a rod that is its own image, exactly: what the symmetry holds is not solved for.
+contact::Place on_the_symmetry(contact::Place middle, chain::Symmetry symmetry) {
+  const Eigen::Vector3d image = contact::image(symmetry);
+  const Eigen::Vector3d t = rod::directors(middle.q).col(2);
+  middle.r = 0.5 * (middle.r + image.cwiseProduct(middle.r));
+  middle.q = rod::product(rod::turn_between(t, (t - image.cwiseProduct(t)).normalized()), middle.q);
+  middle.angle = M_PI * std::round(middle.angle / M_PI);
+  return middle;
+}
+
+/// What of a mesh is behind its middle, as a mesh of its own.
+ArcMesh second_half(const ArcMesh& whole) {
+  ArcMesh out{{0.0}, whole.stages};
+  for (const double node : whole.nodes)
+    if (node > 0.5) out.nodes.push_back(2.0 * node - 1.0);
+  return out;
+}
+
+}  // namespace
+
+std::optional<Started> fold(RodProblem& whole, const Vector& x, const Vector& p, chain::Symmetry symmetry) {
+  const chain::Profile shape = whole.profile(x, p);
+  const std::vector<double> all = whole.joint_places(x, p, shape);
+  const std::vector<Stretch>& kinds = whole.topology().stretches;
+  if (!std::equal(kinds.begin(), kinds.end(), kinds.rbegin()) || !is_own_image(shape, symmetry))
+    return std::nullopt;
+  const Topology topology = chain::folded(whole.topology(), symmetry);
+  if (chain::unfolded(topology) != whole.topology()) return std::nullopt;
+  const auto first = static_cast<std::ptrdiff_t>(kinds.size() / 2);
+  std::vector<ArcMesh> meshes(whole.meshes().begin() + first, whole.meshes().end());
+  std::vector<double> s(all.begin() + first, all.end());
+  s.front() = 0.0;
+  if (!topology.mid_touch && meshes.front().stages > 0) meshes.front() = second_half(meshes.front());
+  const auto problem =
+      std::make_shared<RodProblem>(whole.scene_at(p), whole.spatial(), topology, meshes, whole.keys());
+  Vector y = chain::guess_state(problem->chain(), topology, problem->rod(), shape, s);
+  problem->chain().joint(0).adopt(on_the_symmetry(shape.at(0.0), symmetry),
+                                  problem->chain().coordinates(y, 0));
+  const int used = problem->polish(y, p);
+  if (used < 0) return std::nullopt;
+  return Started{problem, problem->refine(y, p), p, used};
 }
 
 Started lift(RodProblem& planar, const Vector& x, const Vector& p, bool half) {

@@ -140,7 +140,7 @@ bool ArcSolver::solve() {
   std::vector<double> s = reference_.s;
   chain::Profile guess = reference_.guess;
   if (!half_) {
-    guess = chain::mirrored(guess);
+    guess = chain::unfolded(guess, chain::Symmetry::half_turn);
     unfold(topology, meshes, s);
   }
   problem_ = std::make_shared<RodProblem>(reference_.scene, spatial_, topology, meshes, keys);

@@ -77,7 +77,7 @@ constexpr std::string_view guide_words[] = {"none", "slider"};
 constexpr std::string_view side_words[] = {"above", "below"};
 constexpr std::string_view knot_words[] = {"none", "clove_hitch"};
 constexpr std::string_view model_words[] = {"auto", "closed_form", "planar", "kirchhoff"};
-constexpr std::string_view symmetry_words[] = {"auto", "half_turn", "none"};
+constexpr std::string_view symmetry_words[] = {"auto", "half_turn", "mirror", "none"};
 
 template <auto Part, auto Member>
 Key parameter(std::string_view name, Dimension dimension, Range range, std::string_view help) {
@@ -384,7 +384,9 @@ std::vector<Key> method_keys() {
   using C = Continuation;
   return {
       word<&Scene::model, &Model::kind, model_words>("model.kind", "rung of the model ladder"),
-      word<&Scene::model, &Model::symmetry, symmetry_words>("model.symmetry", "half or whole rod"),
+      word<&Scene::model, &Model::symmetry, symmetry_words>(
+          "model.symmetry",
+          "half or whole rod; mirror: of a dragged rod, states that are their own images in x = 0"),
       tolerance,
       parameter_name,
       method<&C::from>("continuation.from", Dimension::of_parameter, any,

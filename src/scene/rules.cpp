@@ -160,6 +160,20 @@ void check_sliding(const Document& document, const Scene& scene) {
     if (scene.model.symmetry == Symmetry::half_turn)
       refuse("model.symmetry", "must not be \"half_turn\": a plate is not its own image under the half-turn");
   }
+  if (scene.mirrored()) {
+    if (!scene.slides())
+      refuse("model.symmetry",
+             "must not be \"mirror\" without cylinder.sliding = \"up\": it is built for rods that a cylinder "
+             "drags");
+    if (scene.ends.left_kind() != scene.ends.right_kind())
+      refuse("model.symmetry", "must not be \"mirror\": the two ends of the rod are held differently");
+    if (scene.strand_radius() > 0.0 || starts_in(scene, "rod.radius"))
+      refuse("model.symmetry",
+             "must not be \"mirror\" for a rod that may touch itself: its tails would cross at one height; "
+             "rod.self_contact = false leaves that out");
+    if (scene.model.kind == ModelKind::planar)
+      refuse("model.symmetry", "must not be \"mirror\" with model.kind = \"planar\"");
+  }
   if (!scene.slides()) return;
   if (!(scene.friction.value_or(0.0) > 0.0))
     refuse("cylinder.friction", "must be > 0 with cylinder.sliding = \"up\"");

@@ -21,9 +21,15 @@ constexpr double zero_force = 1e-9;
 
 bool is_half(const RodProblem& problem) { return problem.topology().half; }
 
-/// Parity of a full chain's mode: sign of ∫ d(−s)·Rot d(s) ds, d from that of the mid-point on: a shift of the whole rod,
+/// The symmetry that parities are told by: a half chain's own, of a full chain the half-turn, and the mirror where a cylinder drags.
+chain::Symmetry symmetry_of(const RodProblem& problem) {
+  if (is_half(problem)) return problem.topology().symmetry;
+  return problem.dragged() ? chain::Symmetry::mirror : chain::Symmetry::half_turn;
+}
+
+/// Parity of a full chain's mode: sign of ∫ d(−s)·S d(s) ds, d from that of the mid-point on: a shift of the whole rod,
 /// which depends on where a gauge holds it, has no part in it.
-std::string parity_of(const Eigen::VectorXd& s, Eigen::Matrix3Xd d) {
+std::string parity_of(const Eigen::VectorXd& s, Eigen::Matrix3Xd d, chain::Symmetry symmetry) {
   double sum = 0.0;
   Eigen::Index mid = 0;
   s.cwiseAbs().minCoeff(&mid);
@@ -31,7 +37,7 @@ std::string parity_of(const Eigen::VectorXd& s, Eigen::Matrix3Xd d) {
   for (Eigen::Index k = 0; k < s.size(); ++k) {
     Eigen::Index twin = 0;
     (s.array() + s(k)).abs().minCoeff(&twin);
-    sum += d.col(twin).dot(Eigen::Vector3d(-1.0, 1.0, -1.0).cwiseProduct(d.col(k)));
+    sum += d.col(twin).dot(contact::image(symmetry).cwiseProduct(d.col(k)));
   }
   return sum >= 0.0 ? "even" : "odd";
 }
@@ -57,19 +63,21 @@ Mode mode_of(RodProblem& problem, const Vector& x, const Vector& p, const Vector
   Mode mode;
   mode.s.resize(total);
   mode.displacement.resize(3, total);
-  const Eigen::Vector3d turn = (parity == Parity::odd ? -1.0 : 1.0) * Eigen::Vector3d(-1.0, 1.0, -1.0);
+  const chain::Symmetry symmetry = symmetry_of(problem);
+  const Eigen::Vector3d image = (parity == Parity::odd ? -1.0 : 1.0) * contact::image(symmetry);
   for (Eigen::Index k = 0; k < count; ++k) {
     const Eigen::Index right = half ? count - 1 + k : k;
     mode.s(right) = s[k];
     mode.displacement.col(right) = d[k];
     if (!half) continue;
     mode.s(count - 1 - k) = -s[k];
-    mode.displacement.col(count - 1 - k) = k == 0 ? d[k] : Eigen::Vector3d(turn.cwiseProduct(d[k]));
+    mode.displacement.col(count - 1 - k) = k == 0 ? d[k] : Eigen::Vector3d(image.cwiseProduct(d[k]));
   }
   const double largest = mode.displacement.cwiseAbs().maxCoeff();
   if (largest > 0.0) mode.displacement /= largest;
   mode.plane = mode.displacement.row(2).norm() > mode.displacement.topRows(2).norm() ? "out" : "in";
-  mode.parity = half ? (parity == Parity::odd ? "odd" : "even") : parity_of(mode.s, mode.displacement);
+  mode.parity =
+      half ? (parity == Parity::odd ? "odd" : "even") : parity_of(mode.s, mode.displacement, symmetry);
   return mode;
 }
 
@@ -82,8 +90,14 @@ int neutral_modes(const RodProblem& problem) {
 
 namespace {
 
-/// Of a dragged state; its index counts the eigenvalues of negative real part.
-Stability analyse_dragged(RodProblem& problem, const Vector& x, const Vector& p, int count) {
+/// Of a dragged state; its index counts the eigenvalues of negative real part. That of a half chain is judged on the full one.
+Stability analyse_dragged(RodProblem& given, const Vector& at_x, const Vector& p, int count) {
+  if (is_half(given)) {
+    const equilibrium::Started whole = equilibrium::unfold(given, at_x, p, 0);
+    return analyse_dragged(*whole.problem, whole.x, p, count);
+  }
+  RodProblem& problem = given;
+  const Vector& x = at_x;
   Stability out;
   for (const chain::Contact& c : problem.profile(x, p).contacts) out.degenerate |= c.force < zero_force;
   const contact::Loads loads = problem.loads(p);

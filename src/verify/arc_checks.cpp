@@ -36,13 +36,13 @@ struct Gap {
   double value, rate, bend = 0.0;
   Gap(double v, double r) : value(v), rate(r) {}
   Gap(const Section& x, const Shape& shape)
-      : value(shape.gap(x.r)), rate(shape.outward(x.r).dot(tangent(x))) {}
+      : value(shape.gap(x.r)), rate(shape.outward(x.r, tangent(x)).dot(tangent(x))) {}
   /// On a free arc: r' = λ t, n' = −weight.
   Gap(const Section& x, const Shape& shape, const Stiffness& law) : Gap(x, shape) {
     const Eigen::Matrix3d d = rotation(x.q);
     const Eigen::Vector3d t = d.col(2), slope = (d * law.strain(x)).cross(t);
     const double stretch = law.stretch(x), stretch_rate = law.k * (x.n.dot(slope) - law.weight.dot(t));
-    bend = stretch * shape.outward(x.r).dot(slope) + stretch_rate * rate +
+    bend = stretch * shape.outward(x.r, t).dot(slope) + stretch_rate * rate +
            stretch * stretch * shape.bend(x.r, t);
     rate *= stretch;
   }
@@ -80,6 +80,31 @@ double smallest_between(const Gap& a, const Gap& b, double h) {
     const Gap next = k == parts ? Gap(b.value, b.rate) : at(static_cast<double>(k) / parts);
     smallest = std::min(smallest, smallest_of_cubic(last, next, h / parts));
     last = next;
+  }
+  return smallest;
+}
+
+/// The same past the outer edge of a plate, where the gap's curvature jumps, or its slope: of the gap itself, along the quintic way
+/// through both places.
+double smallest_past_edge(const Section& a, const Section& b, const Shape& shape, const Stiffness& law,
+                          double h) {
+  constexpr int parts = 64;
+  const auto derivatives = [&](const Section& x) {
+    const Eigen::Matrix3d d = rotation(x.q);
+    const Eigen::Vector3d t = d.col(2), slope = (d * law.strain(x)).cross(t);
+    const double stretch = law.stretch(x), rate = law.k * (x.n.dot(slope) - law.weight.dot(t));
+    return std::pair<Eigen::Vector3d, Eigen::Vector3d>(h * stretch * t, h * h * (stretch * slope + rate * t));
+  };
+  const auto [v, w] = derivatives(a);
+  const auto [v_b, w_b] = derivatives(b);
+  const Eigen::Vector3d D = b.r - a.r - v - 0.5 * w, E = v_b - v - w, F = w_b - w;
+  const Eigen::Vector3d c3 = 10.0 * D - 4.0 * E + 0.5 * F, c4 = -15.0 * D + 7.0 * E - F,
+                        c5 = 6.0 * D - 3.0 * E + 0.5 * F;
+  double smallest = std::min(shape.gap(a.r), shape.gap(b.r));
+  for (int k = 1; k < parts; ++k) {
+    const double x = static_cast<double>(k) / parts;
+    const Eigen::Vector3d r = a.r + x * (v + x * (0.5 * w + x * (c3 + x * (c4 + x * c5))));
+    smallest = std::min(smallest, shape.gap(r));
   }
   return smallest;
 }
@@ -162,12 +187,11 @@ void look_along(const std::vector<Section>& sections, double begin, double h, Ar
     }
     for (const Shape& shape : around.shapes) {
       if (kind != ArcKind::free && &shape == &around.below) continue;
-      const bool over[] = {shape.reaches(sections[k - 1].r), shape.reaches(sections[k].r)};
-      for (const bool ahead : {false, true})  // past a plate's outer edge
-        if (over[ahead] && !over[!ahead]) found.gap.add(shape.gap(sections[ahead ? k : k - 1].r));
-      if (over[0] && over[1])
-        found.gap.add(smallest_between(Gap(sections[k - 1], shape, around.law),
-                                       Gap(sections[k], shape, around.law), h));
+      const Section &from = sections[k - 1], &to = sections[k];
+      const Shape inside = shape.without_edge();
+      found.gap.add(shape.past_edge(from.r) || shape.past_edge(to.r)
+                        ? smallest_past_edge(from, to, shape, around.law, h)
+                        : smallest_between(Gap(from, inside, around.law), Gap(to, inside, around.law), h));
     }
   }
 }

@@ -92,7 +92,8 @@ void check_joints(const Solution& solution, const scene::Scene& scene, const Sca
     if (in_contact) {
       const Shape* shape = shape_of(shapes, joint.obstacle);
       // balance of the joint: n(after) - n(before) + f N = 0
-      const Vector3d outward = shape ? shape->outward(after.r) : Vector3d(Vector3d::Constant(NAN));
+      const Vector3d outward =
+          shape ? shape->outward(after.r, tangent(after)) : Vector3d(Vector3d::Constant(NAN));
       if (shape) {
         const ArcRecord &left = solution.arcs[k - 1], &right = solution.arcs[k];
         const bool held = lines_on_plate(left, scene) || lines_on_plate(right, scene) ||
@@ -102,7 +103,7 @@ void check_joints(const Solution& solution, const scene::Scene& scene, const Sca
         jump += joint.force * (held ? shape->beside_plate() : *shape).push(after.r, slope);
         turn += joint.force * shape->couple(after.r, slope);
       }
-      surface.add(shape && shape->reaches(after.r) ? std::abs(shape->gap(after.r)) : NAN);
+      surface.add(shape ? std::abs(shape->gap(after.r)) : NAN);
       tangency.add(std::abs(outward.dot(tangent(after))));
     }
     if (joint.partner >= 0) {

@@ -30,7 +30,8 @@ class DampedMotion {
   DampedMotion(const chain::Chain& chain, contact::Loads loads, const VectorXd& rest)
       : chain_(chain), loads_(loads) {
     for (int j = 0; j < chain.joint_count(); ++j) {
-      const std::size_t coordinates = j == 0 ? chain.joint(0).even().size() : chain.joint(j).tangent();
+      const std::size_t coordinates =
+          j == 0 ? chain.joint(0).even(contact::Symmetry::half_turn).size() : chain.joint(j).tangent();
       for (std::size_t k = 0; k < coordinates; ++k) kept_.push_back(row_++);
       row_ += chain.locates(j);
     }
@@ -92,7 +93,7 @@ class DampedMotion {
     for (const double t : times) {
       double reached = 0.0;
       BOOST_TEST_REQUIRE(CVode(cvode, t, state, &reached, CV_NORMAL) == 0);
-      tilts.push_back(chain_.coordinates(x, 0)[chain_.joint(0).even().front()]);
+      tilts.push_back(chain_.coordinates(x, 0)[chain_.joint(0).even(contact::Symmetry::half_turn).front()]);
     }
     CVodeFree(&cvode);
     SUNLinSolFree(solver);

@@ -97,8 +97,8 @@ class Problem {
 
   /// Where F is posed on the symmetric states of a larger problem only (half of a body that is its own mirror
   /// image): negative directions of the larger problem's second variation that break the symmetry, which index()
-  /// does not count and F does not see. Called after index() at the same point; -1: no such restriction, or
-  /// unknown (the default).
+  /// does not count and F does not see; of problems that are not gradients that number modulo two is enough, as of
+  /// determinant_sign(). Called after index() at the same point; -1: no such restriction, or unknown (the default).
   virtual int breaking_index(const Vector& x, const Vector& p);
 
   /// The solution x in the larger problem; nullopt where there is none, or it cannot be found.

@@ -62,8 +62,8 @@ class Chain {
   /// outermost contacts is held, ½(s_first + s_last) = c, by forces λ/2 round the cylinder at these two. They are zero at
   /// an equilibrium; see RodProblem::settle.
   struct Gauges {
-    bool half_turn =
-        false;  ///< half chain: the first joint is mapped to itself, at s = 0; holds its odd motions
+    /// Of a half chain: it maps the first joint to itself, at s = 0, and holds that one's odd motions.
+    std::optional<contact::Symmetry> symmetry = {};
     bool height = false;  ///< translation along the axis
     bool along = false;   ///< translation along e_x (both ends of a free rod under a dead thrust)
     bool spin = false;    ///< turn of every section about its tangent
@@ -131,13 +131,13 @@ class Chain {
   double holding_force(const VectorXd& x) const {
     return holds_slide() && gauges_.travel == Travel::none ? x(slide_at_ + 1) : 0.0;
   }
-  Travel travel() const { return gauges_.travel; }
-  /// τ or ω; see Travel.
-  double travelled(const VectorXd& x) const {
-    return gauges_.travel == Travel::none ? 0.0 : x(slide_at_ + 1);
-  }
+  /// Does a cylinder slip along the rod?
+  bool dragged() const { return gauges_.travel != Travel::none; }
+  /// τ or ω, see Travel; none on a half chain: the mirror turns a way along the rod round, and they vanish.
+  Travel travel() const { return half() ? Travel::none : gauges_.travel; }
+  double travelled(const VectorXd& x) const { return travel() == Travel::none ? 0.0 : x(slide_at_ + 1); }
   void set_travelled(VectorXd& x, double value) const {
-    if (gauges_.travel != Travel::none) x(slide_at_ + 1) = value;
+    if (travel() != Travel::none) x(slide_at_ + 1) = value;
   }
   /// Length of a link: the difference of its ends' arclengths, without loss of digits where they are close.
   double length(const VectorXd& x, const Loads& loads, int link) const;
@@ -245,11 +245,14 @@ class Chain {
  private:
   friend class Linearisation;
   friend class Variation;
-  /// Does the chain start at a symmetry point, so that variations of the other parity are to be counted too?
-  bool half() const { return gauges_.half_turn; }
   /// Which unknowns the dense block holds: those of equilibrium, or those of a variation at fixed contact edges.
   enum class Purpose { equilibrium, even, odd };
-
+  /// Does the chain start at a symmetry point, so that variations of the other parity are to be counted too?
+  bool half() const { return gauges_.symmetry.has_value(); }
+  /// Do variations of this purpose include translations along the axis, turns about e_x and spins?
+  bool spins(Purpose purpose) const {
+    return !half() || contact::reverses_height(*gauges_.symmetry) == (purpose == Purpose::odd);
+  }
   /// One arc's share of the dense block.
   struct Local {
     std::vector<Eigen::Index> dofs;  ///< places of the local unknowns in the dense block
@@ -274,7 +277,7 @@ class Chain {
   const std::vector<int>& kept(Purpose purpose, int joint) const {
     if (purpose == Purpose::equilibrium) return kept_[joint];
     if (half() && joint > 0) return varied_[joint];
-    return purpose == Purpose::odd ? odd_ : half() ? kept_[0] : varied_[joint];
+    return purpose == Purpose::odd ? odd_ : half() ? even_ : varied_[joint];
   }
   /// Motion of the phase gauge as an increment: dense block, then interiors.
   VectorXd phase_motion(Purpose purpose, const Numbering& numbering, const VectorXd& x,
@@ -292,7 +295,7 @@ class Chain {
   StretchAt stretch_at(const VectorXd& x, const Loads& loads, int joint) const;
   /// The loads with the speed of the rod along itself at a joint, where ω is an unknown; valid until the next call.
   const Loads& loaded(const VectorXd& x, const Loads& loads, int joint) const {
-    if (gauges_.travel != Travel::free) return loads;
+    if (travel() != Travel::free) return loads;
     with_travel_ = loads;
     with_travel_.travel = x(slide_at_ + 1);
     if (loads.compliance != 0.0) with_travel_.travel *= stretch_at(x, loads, joint).value;
@@ -426,8 +429,8 @@ class Chain {
   std::vector<Coupling> couplings_;
   std::vector<int> coupling_of_;  ///< of a joint; −1: none
   std::vector<std::vector<int>> kept_,
-      varied_;            ///< coordinates that vary at a joint, in equilibrium and in variations
-  std::vector<int> odd_;  ///< of the first joint of a half chain in odd variations
+      varied_;                   ///< coordinates that vary at a joint, in equilibrium and in variations
+  std::vector<int> even_, odd_;  ///< those of the first joint of a half chain in even and in odd variations
   int first_contact_ = -1, last_contact_ = -1;  ///< the outermost contacts; without one the ends
   bool in_contact_ = false, slides_ = false;
   Eigen::Index slide_at_ = -1;  ///< place of (c, λ) in the state

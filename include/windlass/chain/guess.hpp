@@ -9,8 +9,8 @@ namespace windlass::chain {
 VectorXd guess_state(const Chain& chain, const Topology& topology, const RodKind& rod, const Profile& profile,
                      const std::vector<double>& s);
 
-/// The whole rod of a half profile: image under the half-turn about e_y with s → −s, then the half itself.
-Profile mirrored(const Profile& half);
+/// The whole rod of a half profile: its image under the symmetry, with s → −s, then the half itself.
+Profile unfolded(const Profile& half, Symmetry symmetry);
 
 /// Profile of the right half of the planar capstan with very long tails (PHYSICS, "Known exactly"): a line contact up to
 /// phi_star, then the homoclinic tail; below the line-contact limit the coil is laid on the circle all the same.

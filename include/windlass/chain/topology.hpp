@@ -18,6 +18,8 @@ namespace windlass::chain {
 /// State of a stretch of rod: line contact, free between contacts, free to the end.
 enum class Stretch { line, gap, tail };
 
+using contact::Symmetry;
+
 /// What a joint touches: an obstacle, by its place in RodKind::obstacles, or another strand of the rod.
 struct Seat {
   int obstacle = 0;
@@ -42,7 +44,7 @@ struct Seat {
 
 /// The sequence of contacts; joints follow from it (line–free: edge, free–free: touch).
 ///
-/// Of a half chain, symmetric under the half-turn, the stretches from s = 0 outward: the first spans both halves, unless
+/// Of a half chain, which `symmetry` maps to the other half, the stretches from s = 0 outward: the first spans both halves, unless
 /// `mid_touch`: the rod then touches at s = 0. A full chain is the whole rod from s = −L/2, and knows no mid-point.
 ///
 /// Contacts name what they touch: `on` has one entry a joint (a line's joints lie on the line's obstacle). Where it is empty
@@ -52,6 +54,7 @@ struct Topology {
   bool half = true;
   bool mid_touch = false;
   std::vector<Seat> on = {};
+  Symmetry symmetry = Symmetry::half_turn;  ///< of a half chain
 
   Seat seat(int joint) const { return on.empty() ? Seat{} : on[joint]; }
   int obstacle(int joint) const { return seat(joint).obstacle; }
@@ -62,8 +65,9 @@ struct Topology {
   }
   /// Does the rod touch its obstacle and a plate at once at this joint, free on both sides?
   bool touches_flat(int joint) const {
-    return joint > 0 && joint < static_cast<int>(stretches.size()) && seat(joint).flat >= 0 &&
-           stretches[joint - 1] != Stretch::line && stretches[joint] != Stretch::line;
+    return (joint > 0 || (half && mid_touch)) && joint < static_cast<int>(stretches.size()) &&
+           seat(joint).flat >= 0 && (joint == 0 || stretches[joint - 1] != Stretch::line) &&
+           stretches[joint] != Stretch::line;
   }
   /// Does a line leave a plate at this joint, and go on along its own obstacle?
   bool lifts_off(int joint) const {
@@ -88,6 +92,9 @@ struct Topology {
 
 /// The whole rod of a half chain.
 Topology unfolded(const Topology& half);
+/// The half chain of a whole rod whose contacts `symmetry` maps to themselves; the opposite of unfolded(), for rods that do not touch
+/// themselves.
+Topology folded(const Topology& whole, Symmetry symmetry);
 
 /// How an end of the rod is held. Free rods: clamped or pinned. Rods round a cylinder: clamped, moment_free or spin_held.
 enum class EndKind { moment_free, clamped, pinned, spin_held };

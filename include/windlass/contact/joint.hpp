@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "windlass/bvp/arc.hpp"
+#include "windlass/contact/symmetry.hpp"
 #include "windlass/obstacle/surface.hpp"
 
 /// Joints: the places where arcs meet (contacts, ends, the symmetry point).
@@ -150,9 +151,8 @@ class Joint {
     return SmallVector::Zero(tangent());
   }
 
-  /// Degrees of freedom that the half-turn about e_y keeps where it maps the joint to itself, at s = 0; it reverses the
-  /// others.
-  virtual std::vector<int> even() const { return {}; }
+  /// Degrees of freedom that a symmetry keeps where it maps the joint to itself, at s = 0; it reverses the others.
+  virtual std::vector<int> even(Symmetry symmetry) const { return (void)symmetry, std::vector<int>(); }
   /// The degrees of freedom that translate the rod along the axis and spin it about its tangent, −1: none.
   virtual int height_coordinate() const { return -1; }
   virtual int spin_coordinate() const { return -1; }

@@ -78,7 +78,7 @@ class FreeSection final : public VectorJoint {
  public:
   JointKind kind() const override { return JointKind::section; }
   int tangent() const override { return 3; }
-  std::vector<int> even() const override { return {1}; }
+  std::vector<int> even(Symmetry) const override { return {1}; }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
   void adopt(const Place& place, double* w) const override {
     w[0] = place.r(0), w[1] = place.r(1), w[2] = place.heading;

@@ -17,6 +17,9 @@ class Stopped final : public VectorJoint {
   JointKind kind() const override { return JointKind::touch; }
   int tangent() const override { return 3; }
   bool locates() const override { return !in_the_middle_; }
+  std::vector<int> even(Symmetry symmetry) const override {
+    return symmetry == Symmetry::half_turn ? std::vector{1} : std::vector{2};
+  }
   int spin_coordinate() const override { return 2; }
   double slide(const double* w) const override { return std::cos(w[1]); }
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
@@ -29,6 +32,26 @@ class Stopped final : public VectorJoint {
   SurfacePointer line_, plate_;
   double height_;
   bool in_the_middle_;
+};
+
+/// A section of a line on cylinder and plate, where the mirror of a half chain meets it: w = (u₀, χ). The twisting moment vanishes.
+class FlatSection final : public VectorJoint {
+ public:
+  FlatSection(SurfacePointer line, const SurfacePointer& plate);
+  JointKind kind() const override { return JointKind::section; }
+  int tangent() const override { return 2; }
+  std::vector<int> even(Symmetry symmetry) const override {
+    return symmetry == Symmetry::half_turn ? std::vector<int>() : std::vector{1};
+  }
+  int spin_coordinate() const override { return 1; }
+  Attachment attach(Side side, const double* w, const Loads& loads) const override;
+  void adopt(const Place& place, double* w) const override;
+  const obstacle::Surface* surface() const override { return line_.get(); }
+  Eigen::Vector2d on_surface(const double* w) const override { return {w[0], height_}; }
+
+ private:
+  SurfacePointer line_;
+  double height_;
 };
 
 /// Edge of a line on cylinder and plate (rod/plate_line_arc.hpp) with a free arc behind: w = (u₀, χ), 2 degrees of freedom,
@@ -71,6 +94,9 @@ class FlatTouch final : public VectorJoint {
   int tangent() const override { return 3; }
   bool locates() const override { return true; }
   std::vector<int> out_of_plane() const override { return {2}; }
+  std::vector<int> even(Symmetry symmetry) const override {
+    return symmetry == Symmetry::half_turn ? std::vector<int>() : std::vector{2};
+  }
   int spin_coordinate() const override { return 2; }
   int places() const override { return 1; }
   double slide(const double* w) const override;

@@ -48,7 +48,10 @@ class Touch final : public Joint {
   int ambient() const override { return 6; }
   int tangent() const override { return 5; }
   std::vector<int> out_of_plane() const override { return {1, 2, 4}; }
-  std::vector<int> even() const override { return {2}; }
+  /// The half-turn keeps turns about N, the mirror the second coordinate, across the rod, and turns about the tangent.
+  std::vector<int> even(Symmetry symmetry) const override {
+    return symmetry == Symmetry::half_turn ? std::vector{2} : std::vector{1, 4};
+  }
   int height_coordinate() const override { return 1; }
   int spin_coordinate() const override { return 4; }
   bool locates() const override { return true; }
@@ -110,14 +113,18 @@ class Edge final : public VectorJoint {
   SurfacePointer surface_;
 };
 
-/// A section of a line contact, where the half-turn of a half chain meets it: w = (u, ψ, χ).
+/// A section of a line contact, where the symmetry of a half chain meets it: w = (u, ψ, χ). The half-turn leaves ψ, the mirror u₁
+/// and χ; so n_z and the twisting moment vanish there under the mirror, and ψ and its moment are those of the other.
 class SurfaceSection final : public VectorJoint {
  public:
-  explicit SurfaceSection(SurfacePointer surface = obstacle::unit_cylinder())
-      : surface_(std::move(surface)) {}
+  explicit SurfaceSection(SurfacePointer surface = obstacle::unit_cylinder(),
+                          Symmetry symmetry = Symmetry::half_turn)
+      : surface_(std::move(surface)), symmetry_(symmetry) {}
   JointKind kind() const override { return JointKind::section; }
   int tangent() const override { return 4; }
-  std::vector<int> even() const override { return {2}; }
+  std::vector<int> even(Symmetry symmetry) const override {
+    return symmetry == Symmetry::half_turn ? std::vector{2} : std::vector{1, 3};
+  }
   int height_coordinate() const override { return 1; }
   int spin_coordinate() const override { return 3; }
   std::vector<int> out_of_plane() const override { return {1, 2, 3}; }
@@ -127,16 +134,20 @@ class SurfaceSection final : public VectorJoint {
 
  private:
   SurfacePointer surface_;
+  Symmetry symmetry_;
 };
 
 /// A section of a free arc, likewise: w = (r, q), 6 degrees of freedom. On the half-turn's axis d₁ = −e_y: the rod may turn
-/// about it and move along it.
+/// about it and move along it. In the mirror its tangent is e_x: it may move along e_y and e_z and turn about the tangent, so that
+/// n_y, n_z and the twisting moment vanish.
 class FreeSection : public Joint {
  public:
   JointKind kind() const override { return JointKind::section; }
   int ambient() const override { return 7; }
   int tangent() const override { return 6; }
-  std::vector<int> even() const override { return {1, 3}; }
+  std::vector<int> even(Symmetry symmetry) const override {
+    return symmetry == Symmetry::half_turn ? std::vector{1, 3} : std::vector{1, 2, 5};
+  }
   int height_coordinate() const override { return 2; }
   int spin_coordinate() const override { return 5; }
   std::vector<int> out_of_plane() const override { return {2, 3, 5}; }

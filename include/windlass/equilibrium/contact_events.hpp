@@ -21,7 +21,7 @@
 /// | graze | least gap inside a free arc, of each obstacle | a new touch |
 /// | approach | least distance of two strands less 2r, of every pair of links | a new touch of the two |
 /// | reaction | force of the obstacle under a strand that another presses on, and what the line carries of it | it lifts |
-/// | rim | how far inside a plate's outer edge it is touched | contact with that edge, which is not built |
+/// | rim | how far inside a plate's outer edge it is touched; of a touch of that edge sin α cos α of its force's tilt | the other one of the two; at α = π/2 the branch ends |
 /// | buckling | margin of a line without pressure against its own buckling | it bows off the obstacle between two touches |
 ///
 /// **A gap that has just opened is carried by its line.** Where the pressure p of a line contact is negative, the rod lifts: a
@@ -126,8 +126,9 @@ struct Successor {
       false;  ///< opened links grow so slowly that a state of a length is far: sought a little beside the event, too
   int bowed = -1;             ///< link that has no bow at the event itself, −1: none
   bool nothing_left = false;  ///< no contact remains: the branch ends
-  bool at_rim = false;        ///< a contact has reached a plate's outer edge: the branch ends
-  bool at_end = false;        ///< a contact has reached the rod's end, no tail remains: the branch ends
+  bool at_rim =
+      false;  ///< a line or a strand has reached a plate's outer edge, or a touch its outer side: the branch ends
+  bool at_end = false;  ///< a contact has reached the rod's end, no tail remains: the branch ends
 };
 
 /// Candidates for what follows the event, most likely first.

@@ -121,7 +121,7 @@ class RodProblem final : public continuation::Problem {
   /// The key of what is not built for these contacts; null: nothing.
   const char* missing_on(const Topology& topology) const;
   /// Does the cylinder slip along the rod? Its force then has no potential, and no index counts anything.
-  bool dragged() const { return chain_->travel() != chain::Travel::none; }
+  bool dragged() const { return chain_->dragged(); }
   double last_error() const { return last_error_; }
   /// What earlier calls leave behind for later ones; a copy needs it to answer as this problem would.
   struct Memory {
@@ -155,6 +155,8 @@ class RodProblem final : public continuation::Problem {
   /// Of eigenvalues whose sign rounding has made as many are counted as brings the count closest to `last`; −1: none.
   int count(const Vector& x, const Vector& p, contact::Parity parity, int last = -1);
   bool degenerate(const Vector& x, const contact::Loads& at) const;
+  /// Of a dragged half chain: the sign of det J on odd motions, up to a factor of the mesh; 0: singular.
+  int breaking_sign(const Vector& x, const Vector& p);
   /// Are the tails so short that they resist sliding by more than rounding?
   bool slides_freely(const Vector& x, const Vector& p);
   /// Lets the rod slide, or holds it, as its tails ask for. @returns whether its equations have changed

@@ -62,11 +62,15 @@ std::optional<Started> dragged_on(const scene::Scene& scene, const chain::Profil
 /// The planar state as a state of the Kirchhoff rod (half or full chain): equal up to discretisation.
 Started lift(RodProblem& planar, const Vector& x, const Vector& p, bool half);
 
-/// The full chain of a symmetric state. @throws NoEquilibrium
 /// Mesh of the mirror image of an arc, and of the two as one.
 chain::ArcMesh reversed(const chain::ArcMesh& mesh);
 chain::ArcMesh spanning(const chain::ArcMesh& right);
+/// The full chain of a symmetric state. @throws NoEquilibrium
 Started unfold(RodProblem& halved, const Vector& x, const Vector& p, int iterations);
+/// The same before it is solved: exact to what the mesh's nodes, which are those of the half and their images, know.
+Started image_on_full_chain(RodProblem& halved, const Vector& x, const Vector& p);
+/// A state of a full chain on the half chain of a symmetry; nullopt where that does not map it to itself.
+std::optional<Started> fold(RodProblem& whole, const Vector& x, const Vector& p, chain::Symmetry symmetry);
 
 /// Tails as they can be: a formula where a finite tail without torsion or moment at its end leaves a line contact
 /// (stages = 0; its angle to the pull is then below π, see rod::TailArc), a mesh elsewhere.

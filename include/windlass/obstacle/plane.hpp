@@ -12,7 +12,7 @@ namespace windlass::obstacle {
 class Plane final : public Surface {
  public:
   /// @param normal  n, of any length but zero; `distance` is along its direction [ρ]
-  /// @param outer_radius  of a plate round e_z; its edge is no obstacle
+  /// @param outer_radius  of a plate round e_z, whose edge is an obstacle of its own (Rim)
   Plane(const Vector3d& normal, double distance,
         double outer_radius = std::numeric_limits<double>::infinity());
   double outer_radius() const override { return outer_radius_; }

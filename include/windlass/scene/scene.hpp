@@ -16,7 +16,7 @@ namespace windlass::scene {
 /// a universal joint, which lets the end bend and not spin.
 enum class EndKind { moment_free, clamped, pinned, spin_held };
 enum class ModelKind { automatic, closed_form, planar, kirchhoff };
-enum class Symmetry { automatic, half_turn, none };
+enum class Symmetry { automatic, half_turn, mirror, none };
 enum class Sliding { none, up };
 enum class Travel { free, blocked };
 enum class PlateSide { above, below };
@@ -171,6 +171,8 @@ struct Scene {
     return model.symmetry != Symmetry::none && ends.left_kind() == ends.right_kind() &&
            obstacles_keep_half_turn() && weight_keeps_half_turn();
   }
+  /// Is a half chain asked for, whose other half is its mirror image in the plane x = 0?
+  bool mirrored() const { return model.symmetry == Symmetry::mirror; }
   bool weight_keeps_half_turn() const {
     const bool varies = continuation && (continuation->parameter == "rod.weight_x" ||
                                          continuation->parameter == "rod.weight_z");

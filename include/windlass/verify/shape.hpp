@@ -9,12 +9,14 @@
 
 namespace windlass::verify {
 
-/// What the rod may touch, by its own formulas: the unit cylinder, √(x² + y²) − 1, or a plane wall, distance − n·r.
+/// What the rod may touch, by its own formulas: the unit cylinder, √(x² + y²) − 1, a plane wall, distance − n·r, or a plate with an
+/// outer edge: the points that are no nearer than the rod's radius to the body that the plate is the foot of.
 class Shape {
  public:
   static Shape cylinder() { return {}; }
   static Shape of(const scene::Wall& wall);
-  static Shape of(const scene::Plate& plate);
+  /// @param rod_radius  r, of the rod whose centre line `plate.height` is for
+  static Shape of(const scene::Plate& plate, double rod_radius);
   /// The cylinder slipping towards +e_z along a rod that runs along itself at `travel` times its speed.
   /// @param arm  from the rod's centre line to where its friction acts; 0: without moment about it
   static Shape slipping(double friction, double travel, double arm);
@@ -22,23 +24,30 @@ class Shape {
   Shape beside_plate() const;
 
   double gap(const Eigen::Vector3d& r) const;
-  Eigen::Vector3d outward(
-      const Eigen::Vector3d& r) const;  ///< normal part of the contact force on the rod, 1
+  /// Normal part of the contact force on a rod with the tangent t, of size 1. Only a sharp edge asks for t: normal to it.
+  Eigen::Vector3d outward(const Eigen::Vector3d& r, const Eigen::Vector3d& t) const;
   /// Its whole contact force, N + mu d, on a rod with the tangent t, or where it stretches with the slope r' = λ t.
   Eigen::Vector3d push(const Eigen::Vector3d& r, const Eigen::Vector3d& t) const;
   /// The moment of push() about the centre line, per force: it acts `arm` below it.
   Eigen::Vector3d couple(const Eigen::Vector3d& r, const Eigen::Vector3d& t) const {
-    return -arm_ * outward(r).cross(push(r, t));
+    return -arm_ * outward(r, t).cross(push(r, t));
+  }
+  bool has_edge() const { return std::isfinite(outer_radius_); }
+  /// The same plate without an end.
+  Shape without_edge() const {
+    Shape shape = *this;
+    shape.outer_radius_ = HUGE_VAL;
+    return shape;
+  }
+  /// Is a place beyond a plate's outer edge? On it, to the precision of an event, it is not.
+  bool past_edge(const Eigen::Vector3d& r) const {
+    constexpr double located = 1e-9;
+    return r.head<2>().norm() > outer_radius_ + located;
   }
   bool has_couple() const { return arm_ > 0.0; }
   bool drags() const { return friction_ > 0.0; }
   /// Second derivative of the gap along a unit tangent t, but for the part that the curvature of the rod has.
   double bend(const Eigen::Vector3d& r, const Eigen::Vector3d& t) const;
-  /// Is a place on this side of a plate's outer edge? To the precision of an event.
-  bool reaches(const Eigen::Vector3d& r) const {
-    constexpr double located = 1e-9;
-    return r.head<2>().norm() <= outer_radius_ + located;
-  }
   /// The outward normal of a wall, the same everywhere.
   const std::optional<Eigen::Vector3d>& wall() const { return normal_; }
 
@@ -46,7 +55,9 @@ class Shape {
   std::optional<Eigen::Vector3d> normal_;  ///< of a wall: −n
   double distance_ = 0.0;
   double friction_ = 0.0, travel_ = 0.0, arm_ = 0.0;
-  double outer_radius_ = HUGE_VAL;
+  /// Of a place: outward from the physical edge, and from the plate's physical plane.
+  Eigen::Vector2d beside(const Eigen::Vector3d& r) const;
+  double outer_radius_ = HUGE_VAL, rod_radius_ = 0.0;
   bool plate_takes_ = false;
 };
 

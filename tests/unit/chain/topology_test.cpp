@@ -60,4 +60,22 @@ BOOST_AUTO_TEST_CASE(strands_that_touch) {
   BOOST_TEST(!(split == pair));
 }
 
+// Of a line its left end says that it lies on a plate, too: on the other half that is the image of its right one.
+BOOST_AUTO_TEST_CASE(folding_undoes_unfolding) {
+  Topology half{
+      {Stretch::line, Stretch::gap, Stretch::line, Stretch::tail}, true, false, {{0}, {0}, {0}, {0}, {}}};
+  half.symmetry = windlass::chain::Symmetry::mirror;
+  half.on[0].flat = half.on[2].flat = 1;
+  const Topology whole = unfolded(half);
+  BOOST_REQUIRE(whole.stretches.size() == 7u);
+  for (int link = 0; link < 7; ++link)
+    BOOST_TEST(whole.lies_flat(link) == (link == 1 || link == 3 || link == 5));
+  BOOST_TEST((windlass::chain::folded(whole, half.symmetry) == half));
+  Topology touched{{Stretch::gap, Stretch::tail}, true, true, {{0}, {1}, {}}};
+  touched.symmetry = half.symmetry;
+  touched.on[0].flat = 1;
+  BOOST_TEST(unfolded(touched).touches_flat(2));
+  BOOST_TEST((windlass::chain::folded(unfolded(touched), half.symmetry) == touched));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -6,6 +6,7 @@
 
 #include "windlass/contact/planar_joints.hpp"
 #include "windlass/contact/plate_joints.hpp"
+#include "windlass/contact/rim_joint.hpp"
 #include "windlass/contact/spatial_joints.hpp"
 #include "windlass/obstacle/plane.hpp"
 
@@ -32,6 +33,9 @@ const obstacle::SurfacePointer& plate() {
   static const obstacle::SurfacePointer plane =
       std::make_shared<obstacle::Plane>(Eigen::Vector3d::UnitZ(), 0.3);
   return plane;
+}
+std::shared_ptr<const obstacle::Rim> rim(double tube) {
+  return std::make_shared<const obstacle::Rim>(1.3, 0.2, true, tube);
 }
 contact::spatial::Edge wall_edge(Side line) { return {line, 1.2, wall(), {0.8, 1.0, 1.9}, {0.2, -0.3, 0.4}}; }
 
@@ -251,6 +255,9 @@ BOOST_AUTO_TEST_CASE(attachments_of_spatial_joints) {
   check("edge on a wall", wall_edge(Side::left), {Side::left, Side::right});
   check("section of a line on a wall", SurfaceSection(wall()), {Side::left, Side::right});
   check("stop on a line", Stopped(obstacle::unit_cylinder(), plate(), false), {Side::left, Side::right});
+  for (const double tube : {0.0, 0.2})
+    check("touch of a plate's edge", RimTouch(rim(tube)), {Side::left, Side::right});
+  check("section on a plate", FlatSection(obstacle::unit_cylinder(), plate()), {Side::left, Side::right});
   check("touch on a plate", FlatTouch(obstacle::unit_cylinder(), plate()), {Side::left, Side::right});
   check("strand in a plate", FlatStrand(plate()), {Side::left, Side::right});
   check("strand on a line in a plate", FlatPressed(obstacle::unit_cylinder(), plate()),
@@ -302,6 +309,7 @@ BOOST_AUTO_TEST_CASE(location_conditions) {
   check_location("spatial touch", contact::spatial::Touch(), 3);
   using namespace contact::spatial;
   check_location("stop on a line", Stopped(obstacle::unit_cylinder(), plate(), false), 2);
+  for (const double tube : {0.0, 0.2}) check_location("touch of a plate's edge", RimTouch(rim(tube)), 3);
   check_location("touch on a plate", FlatTouch(obstacle::unit_cylinder(), plate()), 3);
   check_location("edge on a plate", FlatEdge(Side::left, 1.2, obstacle::unit_cylinder(), plate()), 3);
   check_location("lift off a plate", LiftOff(Side::left, obstacle::unit_cylinder(), plate()), 2);
@@ -319,6 +327,37 @@ BOOST_AUTO_TEST_CASE(surface_frames_and_coordinates_are_inverse) {
         contact::spatial::surface_coordinates(contact::spatial::surface_frame(base, 0.3, -0.8), base);
     BOOST_TEST((at - Eigen::Vector2d(0.3, -0.8)).norm() < 1e-14);
   }
+}
+
+// At s = 0 a symmetry maps the joint to itself: what it keeps moves the rod there to other places that are their own images.
+BOOST_AUTO_TEST_CASE(even_coordinates_keep_a_joint_its_own_image) {
+  using namespace contact::spatial;
+  const auto own_image = [](const Attachment& at, contact::Symmetry symmetry) {
+    const Eigen::Vector3d image = contact::image(symmetry), r = at.x;
+    const Eigen::Matrix3d d = rod::directors(Eigen::Vector4d(at.q));
+    const Eigen::Vector3d turned = image.cwiseProduct(d.col(0)), tangent = -image.cwiseProduct(d.col(2));
+    return (image.cwiseProduct(r) - r).norm() + (turned - d.col(0)).norm() + (tangent - d.col(2)).norm();
+  };
+  const auto check_even = [&](const char* name, const Joint& joint, contact::Symmetry symmetry) {
+    contact::Place place;
+    place.r = {0.0, -1.0, symmetry == contact::Symmetry::mirror ? -0.3 : 0.0};
+    place.q = surface_frame(0.0, 0.0, 0.0);
+    VectorXd w = VectorXd::Zero(joint.ambient() + 1);
+    joint.adopt(place, w.data());
+    const std::vector<int> even = joint.even(symmetry);
+    for (int k = 0; k < joint.tangent(); ++k) {
+      const bool kept = std::find(even.begin(), even.end(), k) != even.end();
+      const double off =
+          own_image(joint.attach(Side::right, moved(joint, w, k, 0.1).data(), some_loads()), symmetry);
+      BOOST_TEST((off < 1e-14) == kept, name << ", coordinate " << k << ": off by " << off);
+    }
+  };
+  for (const contact::Symmetry symmetry : {contact::Symmetry::half_turn, contact::Symmetry::mirror}) {
+    check_even("section", FreeSection(), symmetry);
+    check_even("touch", Touch(), symmetry);
+  }
+  check_even("touch of a plate", Touch(plate()), contact::Symmetry::mirror);
+  check_even("touch on a plate", FlatTouch(obstacle::unit_cylinder(), plate()), contact::Symmetry::mirror);
 }
 
 // Space turns by ε about e_x, each section by σ ε about its tangent.

@@ -66,7 +66,7 @@ inline Coil planar_coil(double tension, int elements = 12, int stages = 6) {
   links.push_back({std::make_unique<rod::PlanarLineArc>(), "line", 0});
   links.push_back({bvp::make_collocation_arc(rod::PlanarDensity{}, mesh, stages), "tail", 1});
   Coil coil{chain::Chain(std::move(joints), {0.0, 0.0, 1.0}, std::move(links),
-                         {.half_turn = true, .slide = true, .phase = {}}),
+                         {.symmetry = contact::Symmetry::half_turn, .slide = true, .phase = {}}),
             {},
             loads};
   const double contact_end = 0.5 * loads.angle - std::acos(1.0 - 0.5 / tension);
@@ -93,7 +93,11 @@ inline Coil spatial_coil(double tension, int elements = 12, int stages = 6) {
       {bvp::make_collocation_arc(rod::SurfaceDensity{}, graded(elements / 2, 1.0), stages), "line", 0});
   links.push_back({bvp::make_collocation_arc(rod::KirchhoffDensity{}, mesh, stages), "tail", 1});
   Coil coil{chain::Chain(std::move(joints), {0.0, 0.0, 1.0}, std::move(links),
-                         {.half_turn = true, .height = true, .spin = true, .slide = true, .phase = {}}),
+                         {.symmetry = contact::Symmetry::half_turn,
+                          .height = true,
+                          .spin = true,
+                          .slide = true,
+                          .phase = {}}),
             {},
             loads};
   const double contact_end = 0.5 * loads.angle - std::acos(1.0 - 0.5 / tension);
