@@ -49,8 +49,8 @@ Contact obstacle_contact(const Chain& chain, const Topology& topology, const rod
   const Vector3d t = rod::directors(after.q.col(0)).col(2);
   const Eigen::Vector2d along = here.tangents.transpose() * t;
   c.gap_curvature = curvature(material, after, 0).dot(c.normal) + along.dot(here.bend * along);
-  if (loads.arm != 0.0 &&
-      j > 0) {  // friction's moment bends the rod: the curvature jumps, and the lesser gives way
+  // Friction's moment bends the rod, and friction along it stretches it: the curvature jumps, and the lesser gives way.
+  if ((loads.arm != 0.0 || (loads.friction != 0.0 && loads.compliance != 0.0)) && j > 0) {
     const Piece& before = pieces[j - 1];
     const double ahead =
         curvature(material, before, before.s.size() - 1).dot(c.normal) + along.dot(here.bend * along);

@@ -101,6 +101,15 @@ Joint::Location FlatEdge::location(const double* w, const SmallVector& g_left,
   return c;
 }
 
+std::optional<Joint::Stretching> FlatEdge::stretching(const double* w, const SmallVector& n,
+                                                      double compliance) const {
+  std::optional<Stretching> out = edge_.stretching(on_edge(w).data(), n, compliance);
+  const SmallVector all = out->by_w;
+  out->by_w.resize(2);
+  out->by_w << all(0), all(3);
+  return out;
+}
+
 void FlatEdge::adopt(const Place& place, double* w) const {
   double all[4];
   edge_.adopt(place, all);

@@ -338,7 +338,8 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
     case Kind::length:
       if (profile.pieces[event.place].stretch == Stretch::tail) return {end_of_rod(strip)};
       if (auto flat = flat_line_begins_or_ends(event.place, profile, strip); !flat.empty()) return flat;
-      if (const auto anew = laid_anew_at(chain::Strands(topology), event.place); anew && event.redrawn)
+      if (const auto anew = laid_anew_at(profile, chain::Strands(topology), event.place);
+          anew && event.redrawn)
         return laid_anew(*anew, profile, topology, strip);
       if (event.redrawn && part_of_carried(profile, chain::Strands(topology), event.place))
         return become_one(event.place, profile, topology, strip);

@@ -1,6 +1,9 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "entry.hpp"
@@ -266,10 +269,12 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
   const chain::Profile shape = profile(x, p);
   const ContactEvent event = contact_events(shape, topology_).at(which);
   std::optional<continuation::Transition> first;
-  std::string beyond;  // contacts on which friction has no moment yet
+  std::string beyond;  // contacts that something in the scene is not built for
   for (const Successor& next : successors(event, shape, topology_, joint_places(x, p, shape))) {
-    if (!admits(next.topology)) {
-      beyond = next.topology.text();
+    if (const char* key = missing_on(next.topology)) {
+      beyond =
+          fmt::format("{} ({} is not built for {})", next.topology.text(), key,
+                      key == std::string_view("rod.extensible") ? "lines that friction stretches" : "lines");
       continue;
     }
     continuation::Transition transition;
@@ -319,7 +324,7 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
   }
   if (beyond.empty()) return first;
   continuation::Transition end;  // null problem: the branch ends here
-  end.before = topology_.text(), end.after = beyond + " (cylinder.friction_couple is not built for lines)";
+  end.before = topology_.text(), end.after = beyond;
   end.precision = to_flat(*std::static_pointer_cast<RodProblem>(clone()), x, p, shape, event);
   return end;
 }

@@ -84,7 +84,7 @@ std::optional<Started> thick_coil(const scene::Scene& scene, bool half, const st
 /// A thick coil relaxed as a discrete rod, where no other way leads there.
 std::optional<Started> relaxed_coil(const scene::Scene& scene, bool half,
                                     const std::vector<std::string>& keys, std::string& failure) {
-  if (!scene.free_of_torsion()) return std::nullopt;
+  if (!scene.free_of_torsion() || scene.ends.guided()) return std::nullopt;  // it knows dead pulls only
   std::string not_relaxed;
   const std::optional<Started> relaxed = relaxed_start(scene, {}, keys, not_relaxed);
   if (!relaxed) failure += "; nor relaxed as a discrete rod: " + not_relaxed;
@@ -153,6 +153,7 @@ std::optional<Started> followed_coil(const scene::Scene& scene, bool spatial, bo
 
 Started cold_start(const scene::Scene& asked, bool spatial, bool half, const std::vector<std::string>& keys) {
   const scene::Scene scene = scene::natural(asked);
+  spatial = spatial || scene.ends.guided();
   std::string failure;
   if (scene.knot.tied() && scene.plate) {
     if (auto knot = knot_on_plate(scene, keys, failure)) return *knot;

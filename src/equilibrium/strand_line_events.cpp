@@ -78,27 +78,35 @@ bool found_by_tangency(const chain::Strands& strands, int joint) {
 
 }  // namespace
 
-std::optional<LaidAnew> laid_anew_at(const chain::Strands& strands, int link) {
+std::optional<LaidAnew> laid_anew_at(const Profile& profile, const chain::Strands& strands, int link) {
   const auto [begin, end] = strands.located_about(link, link + 1);
   int parts = 0;
   for (int i = begin; i < end; ++i) parts += !strands.welded(i);
   if (pressed_before_end(strands, begin, end) || pressed_before_end(strands, end, begin))
     return LaidAnew{begin, end, std::max(press_at_end, parts * laid_too_near)};
+  // An edge comes near the middle of a line, or a touch beyond it, whichever is nearer.
+  std::optional<LaidAnew> out;
+  const auto left = [&](const LaidAnew& to) {
+    return profile.pieces[to.end].s(0) - profile.pieces[to.begin].s(0) - to.least * profile.unit_length;
+  };
+  const auto offer = [&](const LaidAnew& anew) {
+    if (!out || left(anew) < left(*out)) out = anew;
+  };
   for (const auto& [at, other] : {std::pair(begin, end), std::pair(end, begin)})
     if (found_by_tangency(strands, at) && strands.line_of(other) != strands.line_of(at))
-      return LaidAnew{begin, end, at_middle, at};
+      offer({begin, end, at_middle, at});
   for (const auto& [at, other] : {std::pair(link, link + 1), std::pair(link + 1, link)})
     if (found_by_tangency(strands, at) && !strands.inside_line(other) &&
         strands.line_of(other) != strands.line_of(at))
-      return LaidAnew{link, link + 1, at_touch};
+      offer({link, link + 1, at_touch});
   const int laid = strands.laid(link) ? link : strands.laid(link + 1) ? link + 1 : -1;
   if (parts > 1 && laid >= 0 && !strands.lines()[strands.line_of(laid)].on_obstacles)
-    return LaidAnew{begin, end, parts * laid_too_near};
-  return std::nullopt;
+    offer({begin, end, parts * laid_too_near});
+  return out;
 }
 
 std::optional<ContactEvent> laid_between(const Profile& profile, const chain::Strands& strands, int link) {
-  const std::optional<LaidAnew> anew = laid_anew_at(strands, link);
+  const std::optional<LaidAnew> anew = laid_anew_at(profile, strands, link);
   if (!strands.laid(link) && !strands.laid(link + 1) && !anew) return std::nullopt;
   const auto keeps = [&](int joint) { return strands.laid(joint) || !strands.inside_line(joint); };
   if (!anew && (!keeps(link) || !keeps(link + 1)))

@@ -34,7 +34,7 @@ struct LaidAnew {
   double least;
   int middle = -1;  ///< joint of a line with the own image, where it is that
 };
-std::optional<LaidAnew> laid_anew_at(const chain::Strands& strands, int link);
+std::optional<LaidAnew> laid_anew_at(const chain::Profile& profile, const chain::Strands& strands, int link);
 
 /// What is between two joints that no line has inside it, and touches are laid in, as one length: they keep their parts of it.
 /// nullopt: no such touch is at the link.

@@ -182,7 +182,8 @@ void check_sliding(const Document& document, const Scene& scene) {
 void check_continuation(const Document& document, const Scene& scene, bool restart) {
   const Continuation& c = *scene.continuation;
   const bool of_capstan = c.parameter == "load.tension" || c.parameter == "load.angle";
-  const bool of_strut = c.parameter == "load.thrust" || c.parameter.starts_with("ends.");
+  const bool of_strut = c.parameter == "load.thrust" ||
+                        (c.parameter.starts_with("ends.") && c.parameter != "ends.guide_offset");
   if (scene.has_cylinder ? of_strut : of_capstan)
     throw SceneError(fmt::format(
         "{}: continuation.parameter = \"{}\": must be a key that a scene {} [cylinder] has",
@@ -224,6 +225,7 @@ void check_rules(const Document& document, const Scene& scene, bool restart) {
   check_stretch(document, scene);
   check_weight(document, scene);
   check_sliding(document, scene);
+  check_guides(document, scene);
   if (scene.continuation) check_continuation(document, scene, restart);
   for (const char c : {'/', '\0'})
     if (scene.name.find(c) != std::string::npos || scene.name.empty() || scene.name.front() == '.')

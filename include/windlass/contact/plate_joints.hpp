@@ -46,6 +46,8 @@ class FlatEdge final : public VectorJoint {
   void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
                  SmallMatrix& out) const override;
   Location location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const override;
+  std::optional<Stretching> stretching(const double* w, const SmallVector& n,
+                                       double compliance) const override;
   void adopt(const Place& place, double* w) const override;
   const obstacle::Surface* surface() const override { return edge_.surface(); }
   Eigen::Vector2d on_surface(const double* w) const override { return {w[0], height_}; }

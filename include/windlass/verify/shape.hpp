@@ -24,13 +24,14 @@ class Shape {
   double gap(const Eigen::Vector3d& r) const;
   Eigen::Vector3d outward(
       const Eigen::Vector3d& r) const;  ///< normal part of the contact force on the rod, 1
-  /// Its whole contact force, N + mu d, on a rod with the tangent t.
+  /// Its whole contact force, N + mu d, on a rod with the tangent t, or where it stretches with the slope r' = λ t.
   Eigen::Vector3d push(const Eigen::Vector3d& r, const Eigen::Vector3d& t) const;
   /// The moment of push() about the centre line, per force: it acts `arm` below it.
   Eigen::Vector3d couple(const Eigen::Vector3d& r, const Eigen::Vector3d& t) const {
     return -arm_ * outward(r).cross(push(r, t));
   }
   bool has_couple() const { return arm_ > 0.0; }
+  bool drags() const { return friction_ > 0.0; }
   /// Second derivative of the gap along a unit tangent t, but for the part that the curvature of the rod has.
   double bend(const Eigen::Vector3d& r, const Eigen::Vector3d& t) const;
   /// Is a place on this side of a plate's outer edge? To the precision of an event.

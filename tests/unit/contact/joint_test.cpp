@@ -167,6 +167,27 @@ void check_drag_of_push(const Joint& joint, Eigen::Index free = 2) {
   }
 }
 
+void check_stretching(const char* name, const Joint& joint) {
+  constexpr double compliance = 0.1;
+  const VectorXd w = coordinates(joint);
+  const SmallVector n = Eigen::Vector3d(1.7, -0.4, 0.3);
+  const auto value = [&](const VectorXd& at, const SmallVector& force) {
+    return joint.stretching(at.data(), force, compliance).value().value;
+  };
+  const Joint::Stretching here = joint.stretching(w.data(), n, compliance).value();
+  BOOST_TEST_CONTEXT(name) {
+    for (int k = 0; k < joint.tangent(); ++k) {
+      const double change = value(moved(joint, w, k, h), n) - value(moved(joint, w, k, -h), n);
+      BOOST_TEST(std::abs(change / (2.0 * h) - here.by_w(k)) < bound);
+    }
+    for (int k = 0; k < 3; ++k) {
+      SmallVector more = n;
+      more(k) += 1.0;  // linear in the force
+      BOOST_TEST(std::abs(value(w, more) - here.value - here.by_n(k)) < 1e-13);
+    }
+  }
+}
+
 void check_location(const char* name, const Joint& joint, int tangent) {
   const VectorXd w = coordinates(joint);
   const SmallVector left = SmallVector::LinSpaced(tangent, 0.3, 0.8),
@@ -213,6 +234,7 @@ BOOST_AUTO_TEST_CASE(attachments_of_planar_joints) {
   using namespace contact::planar;
   check("touch", Touch(), {Side::left, Side::right});
   check("edge", Edge(Side::left, 1.2), {Side::left, Side::right});
+  check_stretching("edge", Edge(Side::left, 1.2));
   check("section of a line", SurfaceSection(), {Side::left, Side::right});
   check("section of a free arc", FreeSection(), {Side::left, Side::right});
   check("end", End(Side::left, false), {Side::left});
@@ -236,10 +258,16 @@ BOOST_AUTO_TEST_CASE(attachments_of_spatial_joints) {
   for (const Side flat : {Side::left, Side::right}) {
     check("edge on a plate", FlatEdge(flat, 1.2, obstacle::unit_cylinder(), plate()),
           {Side::left, Side::right});
+    check_stretching("edge on a plate", FlatEdge(flat, 1.2, obstacle::unit_cylinder(), plate()));
     check("lift off a plate", LiftOff(flat, obstacle::unit_cylinder(), plate()), {Side::left, Side::right});
   }
   check("end", End(Side::left, false), {Side::left});
   check("end in a universal joint", HeldEnd(), {Side::left});
+  for (const Side side : {Side::left, Side::right}) {
+    check("end on a slider", GuidedEnd(side, std::make_unique<End>(side, false)), {side});
+    check("clamped end on a slider", GuidedEnd(side, std::make_unique<End>(side, true)), {side});
+    check("end in a universal joint on a slider", GuidedEnd(side, std::make_unique<HeldEnd>()), {side});
+  }
   for (const bool under_thrust : {false, true})
     for (const bool pinned : {false, true})
       check("end of a free rod", FreeRodEnd(Side::left, under_thrust, pinned), {Side::left});
