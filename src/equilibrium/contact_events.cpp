@@ -210,6 +210,14 @@ ContactEvent rim_event(const Profile& profile, const Contact& c) {
   return event;
 }
 
+/// A rod without torsion that lies on a plate beside a cylinder presses on it at the ends of the line only: between them its
+/// pressure is rounding.
+bool presses_at_ends_only(const Profile& profile, const Piece& line) {
+  constexpr double rounding = 1e-9;
+  return profile.obstacles[0].curvature() != 0.0 && profile.obstacles[line.obstacle].curvature() == 0.0 &&
+         line.p.cwiseAbs().maxCoeff() < rounding;
+}
+
 double length_of(const Piece& piece) { return piece.s(piece.s.size() - 1) - piece.s(0); }
 
 /// Two touches at the ends of a short gap: with it their curvature, its height and all that tells them apart vanishes.
@@ -444,7 +452,9 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
       events.push_back(length_event(profile, topology, strands, i));
       continue;
     }
-    if (piece.stretch == Stretch::line) {
+    if (piece.stretch == Stretch::line && presses_at_ends_only(profile, piece)) {
+      events.push_back({Kind::pressure, i, far, piece.s(0)});
+    } else if (piece.stretch == Stretch::line) {
       const auto found = pressure_and_suction(piece, i, at_mid);
       events.insert(events.end(), found.begin(), found.end());
     }
