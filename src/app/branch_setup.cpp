@@ -28,7 +28,8 @@ bool needs_space(const scene::Scene& scene) {
     case scene::ModelKind::automatic:
       break;
   }
-  return !scene.has_cylinder || scene.load.angle > M_PI || scene.friction_arm() > 0.0 ||
+  return !scene.has_cylinder || scene.ends.guided() || scene.load.angle > M_PI ||
+         scene.friction_arm() > 0.0 ||
          (scene.continuation && scene.continuation->parameter == "load.angle" &&
           scene.continuation->to > M_PI);
 }

@@ -203,6 +203,12 @@ int run_pull(const PullRequest& request) {
   if (scene.friction_arm() > 0.0)
     throw scene::SceneError(
         scene.name + ": cylinder.friction_couple: a pull needs false: its friction acts at the centre line");
+  if (scene.ends.guided())
+    throw scene::SceneError(
+        scene.name + ": ends.guide: a pull needs \"none\": the discrete rod's ends are under dead pulls");
+  if (scene.rod.extensible)
+    throw scene::SceneError(scene.name +
+                            ": rod.extensible: a pull needs false: its discrete rod does not stretch");
   if (scene.plate && !std::isinf(scene.plate->outer_radius))
     throw scene::SceneError(scene.name +
                             ": plate.outer_radius: a pull needs \"inf\": its plate has no outer edge");

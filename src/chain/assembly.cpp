@@ -14,7 +14,7 @@ using contact::SmallVector;
 
 Attachment Chain::attachment(Purpose purpose, const VectorXd& x, const Loads& loads, int joint,
                              Side side) const {
-  Attachment at = joints_[joint]->attach(side, coordinates(x, joint), loaded(x, loads));
+  Attachment at = joints_[joint]->attach(side, coordinates(x, joint), loaded(x, loads, joint));
   if (purpose != Purpose::equilibrium)
     at.tested.reset();  // a second variation is of the displacements themselves
   const std::vector<int>& kept = this->kept(purpose, joint);
@@ -102,6 +102,28 @@ Chain::Local Chain::local(Purpose purpose, const Numbering& numbering, const Vec
   return l;
 }
 
+Chain::StretchAt Chain::stretch_at(const VectorXd& x, const Loads& loads, int joint) const {
+  StretchAt out;
+  Eigen::Vector3d n = Eigen::Vector3d::Zero();
+  std::optional<Attachment> free;
+  for (const int link : {joint - 1, joint}) {
+    if (link < 0 || link >= link_count() || links_[link].arc->ambient() != 4) continue;
+    out.links.push_back(link);
+    n += Eigen::Vector3d(force(x, loads, link));
+    if (!free)
+      free = joints_[joint]->attach(link == joint ? Side::right : Side::left, coordinates(x, joint), loads);
+  }
+  if (!free) return out;
+  const double share = loads.compliance / static_cast<double>(out.links.size());
+  const Eigen::Matrix3d d = rod::directors(rod::Quaternion(free->q));
+  Eigen::Matrix3d turned;  // of the tangent, with increments of half the angle
+  turned << -2.0 * d.col(1), 2.0 * d.col(0), Eigen::Vector3d::Zero();
+  out.value = 1.0 + share * n.dot(d.col(2));
+  out.by_w = share * (turned * free->dq).transpose() * n;
+  out.by_n = share * d.col(2);
+  return out;
+}
+
 void Chain::add_travel(const VectorXd& x, const Loads& loads, int link, Side side,
                        const SmallVector& gradient, const SmallVector& force, MatrixXd& dense) const {
   const int joint = side == Side::right ? link : link + 1;
@@ -114,7 +136,7 @@ void Chain::add_travel(const VectorXd& x, const Loads& loads, int link, Side sid
     return;
   }
   // Smooth in ω, and a matter of a few numbers: by differences.
-  const Loads here = loaded(x, loads);
+  const Loads here = loaded(x, loads, joint);
   const auto taken = [&](double travel) {
     Loads at = here;
     at.travel = travel;
@@ -124,8 +146,18 @@ void Chain::add_travel(const VectorXd& x, const Loads& loads, int link, Side sid
   };
   constexpr double h = 1e-5;
   const SmallVector by_travel = (taken(here.travel + h) - taken(here.travel - h)) / (2.0 * h);
-  for (std::size_t k = 0; k < kept_[joint].size(); ++k)
-    dense(first + static_cast<Eigen::Index>(k), numbering_.slide) += by_travel(kept_[joint][k]);
+  const StretchAt stretch = loads.compliance == 0.0 ? StretchAt{} : stretch_at(x, loads, joint);
+  for (std::size_t k = 0; k < kept_[joint].size(); ++k) {
+    const Eigen::Index row = first + static_cast<Eigen::Index>(k);
+    dense(row, numbering_.slide) += by_travel(kept_[joint][k]) * stretch.value;
+    if (stretch.links.empty()) continue;
+    const double by_stretch = by_travel(kept_[joint][k]) * travelled(x);
+    for (std::size_t c = 0; c < kept_[joint].size(); ++c)
+      dense(row, first + static_cast<Eigen::Index>(c)) += by_stretch * stretch.by_w(kept_[joint][c]);
+    for (const int side_link : stretch.links)
+      if (numbering_.force[side_link] >= 0)
+        dense.block(row, numbering_.force[side_link], 1, 3) += by_stretch * stretch.by_n.transpose();
+  }
 }
 
 void Chain::add_joint_terms(Purpose purpose, const Numbering& numbering, const VectorXd& x,
@@ -145,7 +177,7 @@ void Chain::add_joint_terms(Purpose purpose, const Numbering& numbering, const V
     SmallMatrix bend = SmallMatrix::Zero(all, all);
     const SmallVector g = gradient.segment(side == Side::right ? 0 : d, d),
                       f = side == Side::right ? SmallVector(-n) : n_end;
-    joints_[joint]->curvature(side, coordinates(x, joint), loaded(x, loads), g, f, bend);
+    joints_[joint]->curvature(side, coordinates(x, joint), loaded(x, loads, joint), g, f, bend);
     if (drags) {
       if (const auto drag = drag_at(x, loads, link, side)) bend += drag->by_w;
       if (travel() != Travel::none)
@@ -192,10 +224,25 @@ void Chain::add_stretching(const VectorXd& x, const Loads& loads, int joint, Mat
   const int link = side == Side::right ? joint : joint - 1;
   if (numbering_.force[link] >= 0)
     dense.block(row, numbering_.force[link], 1, stretched->by_n.size()) += stretched->by_n.transpose();
+  else if (travel() == Travel::blocked)
+    dense(row, numbering_.slide) += stretched->by_n.dot(SmallVector(force_by_travel(loads, link)));
   if (side == Side::right || !loads.weighs()) return;
   const double by_length = -stretched->by_n.dot(SmallVector(weight_on(loads, link)));
   dense(row, row) += by_length;
   if (numbering_.location[link] >= 0) dense(row, numbering_.location[link]) -= by_length;
+}
+
+/// Derivatives of the pulls T ± τ on ends on sliders: dead loads are linear in the tension.
+void Chain::add_pulled(const VectorXd& x, const Loads& loads, MatrixXd& dense) const {
+  for (const int j : {0, joint_count() - 1}) {
+    Loads more = loads;
+    more.tension += 1.0;
+    const SmallVector by_pull =
+        joints_[j]->dead_load(coordinates(x, j), more) - joints_[j]->dead_load(coordinates(x, j), loads);
+    for (std::size_t k = 0; k < kept_[j].size(); ++k)
+      dense(numbering_.coordinate[j] + static_cast<Eigen::Index>(k), numbering_.slide) +=
+          (j == 0 ? -1.0 : 1.0) * by_pull(kept_[j][k]);
+  }
 }
 
 void Chain::add_locations(const VectorXd& x, const Loads& loads, MatrixXd& dense) const {
@@ -208,6 +255,7 @@ void Chain::add_locations(const VectorXd& x, const Loads& loads, MatrixXd& dense
     if (loads.compliance != 0.0) add_stretching(x, loads, j, dense);
   }
   if (slide_at_ < 0) return;
+  if (gauges_.travel == Travel::blocked) add_pulled(x, loads, dense);
   if (slides_) dense(numbering_.slide, numbering_.slide) += 1.0;
   for (int j = 0; j < joint_count(); ++j) {
     const double share = slide_share(j);

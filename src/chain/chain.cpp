@@ -120,16 +120,18 @@ double Chain::slide_share(int joint) const {
   return joint == first_contact_ && !half() ? 0.5 : 0.0;
 }
 
-Chain::Numbering Chain::number(Purpose purpose) const {
+Chain::Numbering Chain::number(Purpose purpose, bool together) const {
   const bool equilibrium = purpose == Purpose::equilibrium, asymmetric = !half() || purpose == Purpose::odd;
   Numbering n;
   // Does a joint's place vary, in a variation? Along a line strands touch at every place of the first, each where the second is
   // nearest: that one's moves.
-  const auto varies = [&](int j) {
+  const auto stays = [&](int j) {
     const int k = coupling_of_[j];
-    const bool fixed =
-        k >= 0 && couplings_[k].along && (couplings_[k].first == j || couplings_[k].with_itself());
-    return joints_[j]->kind() == JointKind::touch && (locates(j) || purpose == Purpose::odd) && !fixed;
+    if (k < 0 || !couplings_[k].along) return false;
+    return couplings_[k].with_itself() ? purpose == Purpose::odd : couplings_[k].first == j;
+  };
+  const auto varies = [&](int j) {
+    return joints_[j]->kind() == JointKind::touch && (locates(j) || purpose == Purpose::odd) && !stays(j);
   };
   for (int j = 0; j < joint_count(); ++j) {
     if (shares_place(j)) {
@@ -143,6 +145,11 @@ Chain::Numbering Chain::number(Purpose purpose) const {
     // moving it costs nothing to second order, as do touches of a line between strands. The half-turn keeps a touch at s = 0, but in odd variations.
     bool located = equilibrium ? locates(j) : varies(j);
     for (int k = j + 1; !located && k < joint_count() && shares_place(k); ++k) located = varies(k);
+    if (!located && together && stays(j)) {
+      if (n.together < 0) n.together = n.size++, ++n.constraints;
+      n.location.push_back(n.together);
+      continue;
+    }
     n.location.push_back(located ? n.size++ : -1);
     n.constraints += located;
   }
@@ -166,7 +173,7 @@ Chain::Numbering Chain::number(Purpose purpose) const {
     ++n.constraints;
   };
   const bool spins = this->spins(purpose) && !equilibrium;
-  hold(gauges_.slide && in_contact_ && asymmetric, n.slide);
+  hold((gauges_.knot ? !equilibrium : gauges_.slide && in_contact_) && asymmetric, n.slide);
   hold(gauges_.spin && spins, n.spin);
   hold(gauges_.height && spins, n.height);
   hold(gauges_.phase && spins, n.phase);

@@ -16,7 +16,8 @@ void Chain::add_dragged_pushes(const VectorXd& x, const Loads& loads, VectorXd& 
     const double push = strand_force(x, static_cast<int>(k));
     for (const int joint : {at.coupling.first, at.coupling.second}) {
       const Vector3d force = -push * at.push_on(joint);
-      if (const auto drag = joints_[joint]->drag_of_push(coordinates(x, joint), loaded(x, loads), force))
+      if (const auto drag =
+              joints_[joint]->drag_of_push(coordinates(x, joint), loaded(x, loads, joint), force))
         add_kept(drag->value, joint, f);
     }
   }
@@ -32,7 +33,7 @@ void Chain::add_dragged_pushes(const VectorXd& x, const Loads& loads, MatrixXd& 
     const Matrix3d turn = (Matrix3d::Identity() - at.direction * at.direction.transpose()) / at.distance;
     for (const int joint : {c.first, c.second}) {
       const Vector3d way = at.push_on(joint);
-      Loads here = loaded(x, loads);
+      Loads here = loaded(x, loads, joint);
       const auto drag = joints_[joint]->drag_of_push(coordinates(x, joint), here, -push * way);
       if (!drag) continue;
       const Eigen::Index row = numbering_.coordinate[joint];

@@ -28,9 +28,9 @@ void adopt_force(const obstacle::Surface* surface, const Profile::At& at, const 
 }
 
 /// @param surface  of a line contact, else null
-/// @param twist    of a line contact, at its start on entry and at its last interior node on return [rad]
+/// @param turn     of a line contact, its inclination and twist, at its start on entry and at its last interior node on return [rad]
 void adopt_interior(const RodKind& rod, const obstacle::Surface* surface, const Arc& arc,
-                    const Profile& profile, double begin, double length, double& twist, double* out) {
+                    const Profile& profile, double begin, double length, Eigen::Vector2d& turn, double* out) {
   if (arc.interior_nodes() == 0) return;
   const std::vector<double> mesh = arc.mesh();
   const VectorXd& points = bvp::CollocationTable::get(arc.stages()).lobatto;
@@ -42,8 +42,8 @@ void adopt_interior(const RodKind& rod, const obstacle::Surface* surface, const 
     if (surface) {
       const Eigen::Vector2d c = contact::spatial::surface_coordinates(
           at.q, surface->base_frame(surface->coordinates(at.r, at.angle)));
-      q[0] = c(0);
-      q[1] = twist += std::remainder(c(1) - twist, 2.0 * M_PI);
+      q[0] = turn(0) = c(0) + 2.0 * M_PI * std::round((turn(0) - c(0)) / (2.0 * M_PI));
+      q[1] = turn(1) += std::remainder(c(1) - turn(1), 2.0 * M_PI);
     } else if (rod.spatial) {
       for (int i = 0; i < 4; ++i) q[i] = at.q(i);
     } else {
@@ -52,17 +52,23 @@ void adopt_interior(const RodKind& rod, const obstacle::Surface* surface, const 
   }
 }
 
-/// Interior of a line contact in space. Frames give its material twist up to whole turns, which long coils make: they
-/// are counted from the edge on the left, or the mid-point of a half chain, and the joint on the right agrees.
+/// Interior of a line contact in space. Frames give its material twist up to whole turns, which long coils make, and its
+/// direction, which turns round on a plane: they are counted from the edge on the left, or the mid-point of a half chain, and
+/// the joint on the right agrees.
 void adopt_line(const RodKind& rod, const obstacle::Surface& surface, const Chain& chain, int link,
                 const Profile& profile, double begin, double length, VectorXd& x) {
   const Arc& arc = *chain.link(link).arc;
   const auto twist_at = [&](int joint) {
     return chain.coordinates(x, joint) + chain.joint(joint).spin_coordinate();
   };
-  double twist = *twist_at(link);
-  adopt_interior(rod, &surface, arc, profile, begin, length, twist, chain.interior(x, link));
-  *twist_at(link + 1) += 2.0 * M_PI * std::round((twist - *twist_at(link + 1)) / (2.0 * M_PI));
+  // On a plane each joint of a line has its direction before its twist; on a cylinder a line never turns back.
+  const bool turns = surface.curvature() == 0.0;
+  Eigen::Vector2d turn(turns ? twist_at(link)[-1] : 0.0, *twist_at(link));
+  adopt_interior(rod, &surface, arc, profile, begin, length, turn, chain.interior(x, link));
+  for (int i = turns ? 0 : 1; i < 2; ++i) {
+    double& right = twist_at(link + 1)[i - 1];
+    right += 2.0 * M_PI * std::round((turn(i) - right) / (2.0 * M_PI));
+  }
 }
 
 void set_planar(Piece& piece, Eigen::Index k, double heading, const Eigen::Vector2d& r,
@@ -89,6 +95,29 @@ Piece empty_piece(Stretch stretch, Eigen::Index count) {
   return piece;
 }
 
+/// The force between two strands as the jump of the force in one of them, which lies on no obstacle if either does not. Touches that
+/// share its place share the jump, too.
+double jump_of(const Chain& chain, const VectorXd& x, int coupling, const Profile& profile,
+               const std::vector<double>& s) {
+  const Coupling& c = chain.couplings()[coupling];
+  const bool of_second = chain.joint(c.first).surface() && !chain.joint(c.second).surface();
+  const int joint = of_second ? c.second : c.first;
+  int first = joint, last = joint;
+  while (chain.shares_place(first)) --first;
+  while (last + 1 < chain.joint_count() && chain.shares_place(last + 1)) ++last;
+  const auto beside = [&](int link) { return profile.at(0.5 * (s[link] + s[link + 1])).n; };
+  const Vector3d jump = beside(first - 1) - beside(last);
+  Eigen::Matrix3Xd pushes(3, 0);
+  Eigen::Index own = 0;
+  for (int j = first; j <= last; ++j) {
+    if (chain.coupling_of(j) < 0) continue;
+    if (j == joint) own = pushes.cols();
+    pushes.conservativeResize(Eigen::NoChange, pushes.cols() + 1);
+    pushes.rightCols<1>() = chain.crossing(x, chain.coupling_of(j)).push_on(j);
+  }
+  return pushes.cols() == 1 ? jump.dot(pushes.col(0)) : pushes.colPivHouseholderQr().solve(jump)(own);
+}
+
 }  // namespace
 
 VectorXd guess_state(const Chain& chain, const Topology& topology, const RodKind& rod, const Profile& profile,
@@ -113,19 +142,14 @@ VectorXd guess_state(const Chain& chain, const Topology& topology, const RodKind
     if (chain.link(i).pull == 0)
       adopt_force(surface, profile.at(begin + where * length), 0.5 * length * profile.material.weight,
                   chain.force(x, i), arc.forces());
-    double no_twist = 0.0;
+    Eigen::Vector2d no_turn = Eigen::Vector2d::Zero();
     if (surface && rod.spatial)
       adopt_line(rod, *surface, chain, i, profile, begin, length, x);
     else if (arc.interior_nodes() > 0)
-      adopt_interior(rod, nullptr, arc, profile, begin, length, no_twist, chain.interior(x, i));
+      adopt_interior(rod, nullptr, arc, profile, begin, length, no_turn, chain.interior(x, i));
   }
-  // The force between strands is the jump of the force in either.
-  for (std::size_t k = 0; k < chain.couplings().size(); ++k) {
-    const int joint = chain.couplings()[k].first;
-    const auto beside = [&](int link) { return profile.at(0.5 * (s[link] + s[link + 1])).n; };
-    const Vector3d jump = beside(joint - 1) - beside(joint);
-    chain.strand_force(x, static_cast<int>(k)) = jump.dot(chain.crossing(x, static_cast<int>(k)).direction);
-  }
+  for (std::size_t k = 0; k < chain.couplings().size(); ++k)
+    chain.strand_force(x, static_cast<int>(k)) = jump_of(chain, x, static_cast<int>(k), profile, s);
   return x;
 }
 

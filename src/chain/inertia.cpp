@@ -55,8 +55,9 @@ void Chain::add_gauges(const Numbering& numbering, Purpose purpose, const Vector
       dense(row, at) = dense(at, row) = weight;
     };
     // The material of the outermost contacts stays: mean of δa/a' − δs.
-    hold(numbering.slide, 0, share / joints_[j]->slide(coordinates(x, j)));
-    if (s >= 0 && numbering.slide >= 0) dense(numbering.slide, s) = dense(s, numbering.slide) = -share;
+    if (gauges_.slide) hold(numbering.slide, 0, share / joints_[j]->slide(coordinates(x, j)));
+    if (s >= 0 && numbering.slide >= 0 && gauges_.slide)
+      dense(numbering.slide, s) = dense(s, numbering.slide) = -share;
     hold(numbering.height, joints_[j]->height_coordinate(), share);
     // A frame's increment is half the angle.
     const bool edge = joints_[j]->kind() == JointKind::edge;
@@ -77,7 +78,8 @@ MatrixXd Chain::variation_matrix(Purpose purpose, const Numbering& numbering, co
   constexpr double nothing = 1e-7, stiff = 1e3;  // [EI/ρ²], [EI/ρ³]
   for (int j = 0; j < joint_count(); ++j) {
     const Eigen::Index row = numbering.location[j];
-    if (row < 0 || shares_place(j) || !(touch_force(x, loads, j) < nothing)) continue;
+    if (row < 0 || row == numbering.together || shares_place(j) || !(touch_force(x, loads, j) < nothing))
+      continue;
     // One of a line may pull with what opens the strands by no height: it stays where it is.
     dense(row, row) -= along_strand(j) ? stiff : nothing;
   }
@@ -138,6 +140,9 @@ MatrixXd Chain::condensed_variation(Purpose purpose, const Numbering& numbering,
                                     const std::vector<bvp::EndsMatrix>& condensed) const {
   MatrixXd dense = variation_matrix(purpose, numbering, x, loads);
   const VectorXd motion = numbering.phase >= 0 ? phase_motion(purpose, numbering, x, loads) : VectorXd();
+  const VectorXd slid = holds_knot(numbering) ? slid_by(purpose, numbering, x, loads) : VectorXd();
+  for (Eigen::Index k = 0; k < numbering.size && slid.size() > 0; ++k)
+    dense(numbering.slide, k) = dense(k, numbering.slide) = slid(k);
   for (int i = 0; i < link_count(); ++i) {
     const Arc& arc = *arcs[i];
     const Local l = local(purpose, numbering, x, loads, i);
@@ -145,9 +150,12 @@ MatrixXd Chain::condensed_variation(Purpose purpose, const Numbering& numbering,
     for (std::size_t r = 0; r < l.dofs.size(); ++r)
       for (std::size_t s = 0; s < l.dofs.size(); ++s) dense(l.dofs[r], l.dofs[s]) += share(r, s);
     std::vector<Coupled> coupled = held_by(arc, dense);
+    const auto inside = [&](const VectorXd& all) {
+      return all.segment(interior_row_[i] + numbering.size - dense_size_, arc.interior_tangent());
+    };
     if (numbering.phase >= 0 && arc.interior_nodes() > 0)
-      coupled.push_back({numbering.phase, motion.segment(interior_row_[i] + numbering.size - dense_size_,
-                                                         arc.interior_tangent())});
+      coupled.push_back({numbering.phase, inside(motion)});
+    if (slid.size() > 0 && arc.interior_nodes() > 0) coupled.push_back({numbering.slide, inside(slid)});
     add_borders(arc, l, coupled, dense);
   }
   return 0.5 * (dense + dense.transpose());
@@ -176,16 +184,6 @@ Chain::Inertia Chain::inertia(const VectorXd& x, const Loads& loads, Parity pari
   const bool near = replaced.empty() && dense.size() > 0 &&
                     factors.least_pivot() < close_to_rounding * dense.cwiseAbs().maxCoeff();
   return {negative + factors.negative(), near};
-}
-
-double Chain::sliding_stiffness(const VectorXd& x, const Loads& loads) const {
-  const Purpose purpose = half() ? Purpose::odd : Purpose::even;
-  const Numbering numbering = number(purpose);
-  if (numbering.slide < 0) return 0.0;
-  // K v + Φᵀμ = 0, Φ v = 1: the slide of size one that costs least, and −μ = v·K v. A half chain has half the energy.
-  const MatrixXd dense = condensed_variation(purpose, numbering, x, loads, arcs(), condensed_);
-  const VectorXd v = dense.partialPivLu().solve(VectorXd::Unit(dense.rows(), numbering.slide));
-  return -(half() ? 2.0 : 1.0) * v(numbering.slide);
 }
 
 }  // namespace windlass::chain

@@ -140,16 +140,33 @@ void unroll(VectorXd& angle, double before) {
   }
 }
 
-/// Makes angles and headings continuous along the chain. The place of a line contact is unrolled already; there the
-/// heading is the place, to less than half a turn.
-void unroll(std::vector<Piece>& pieces) {
+/// Makes angles and headings continuous along the chain. The place of a line contact is unrolled already, but on a plate beside a
+/// cylinder; there the heading is the place, to less than half a turn.
+void unroll(std::vector<Piece>& pieces, const obstacle::Set& obstacles) {
+  const auto counts_turns = [&](const Piece& piece) {
+    return piece.stretch == Stretch::line &&
+           (obstacles[0].curvature() == 0.0 || obstacles[piece.obstacle].curvature() != 0.0);
+  };
   double heading =
       pieces.front().stretch == Stretch::line ? pieces.front().angle(0) : pieces.front().heading(0);
   for (Piece& piece : pieces) {
     unroll(piece.heading, heading);
     heading = piece.heading(piece.heading.size() - 1);
-    if (piece.stretch != Stretch::line) unroll(piece.angle, piece.angle(0));
+    if (!counts_turns(piece)) unroll(piece.angle, piece.angle(0));
   }
+}
+
+/// Does a stretch lie in a plate, from a touch of it to what touches the cylinder, too? It carries no force along the axis.
+bool held_in_plate(const RodKind& rod, const Topology& topology, int link) {
+  const auto on_plate = [&](int joint) {
+    return topology.seat(joint).strand == 0 && topology.seat(joint).obstacle > 0 &&
+           rod.obstacles[topology.obstacle(joint)].curvature() == 0.0;
+  };
+  const auto on_both = [&](int joint, int beyond) {
+    return topology.touches_flat(joint) || topology.lies_flat(beyond);
+  };
+  return topology.stretches[link] == Stretch::gap &&
+         ((on_plate(link) && on_both(link + 1, link + 1)) || (on_both(link, link - 1) && on_plate(link + 1)));
 }
 
 /// Arclengths of the samples of a link.
@@ -223,6 +240,7 @@ Piece sample_link(const Chain& chain, const RodKind& rod, const VectorXd& x, con
   } else {
     Vector3d n = Vector3d::Zero(), start = Vector3d::Zero();
     n.head(placed.n.size()) = placed.n;
+    if (held_in_plate(rod, topology, link)) n(2) = 0.0;  // but for rounding, over the cube of its length
     const JointKind before = chain.joint(link).kind();
     if ((before != JointKind::end && before != JointKind::infinity) || rod.strut) {
       start.head(placed.left.x.size()) = placed.left.x;
@@ -297,7 +315,7 @@ Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod
   for (int i = 0; i < chain.link_count(); ++i)
     out.pieces.push_back(sample_link(chain, rod, x, loads, i, topology));
   fill_welds(chain, x, out.pieces);
-  unroll(out.pieces);
+  unroll(out.pieces, out.obstacles);
   add_contacts(chain, topology, x, loads, out);
   return out;
 }

@@ -49,8 +49,8 @@ Contact obstacle_contact(const Chain& chain, const Topology& topology, const rod
   const Vector3d t = rod::directors(after.q.col(0)).col(2);
   const Eigen::Vector2d along = here.tangents.transpose() * t;
   c.gap_curvature = curvature(material, after, 0).dot(c.normal) + along.dot(here.bend * along);
-  if (loads.arm != 0.0 &&
-      j > 0) {  // friction's moment bends the rod: the curvature jumps, and the lesser gives way
+  // Friction's moment bends the rod, and friction along it stretches it: the curvature jumps, and the lesser gives way.
+  if ((loads.arm != 0.0 || (loads.friction != 0.0 && loads.compliance != 0.0)) && j > 0) {
     const Piece& before = pieces[j - 1];
     const double ahead =
         curvature(material, before, before.s.size() - 1).dot(c.normal) + along.dot(here.bend * along);
@@ -83,6 +83,9 @@ Contact strand_contact(const Chain& chain, const Topology& topology, const rod::
   const double by_first = 1.0 / at.distance + at.direction.dot(first),
                by_second = 1.0 / at.distance - at.direction.dot(second),
                mixed = -at.first.t.dot(at.second.t) / at.distance;
+  const double own = j == with.first ? by_first : by_second, other = by_first + by_second - own;
+  c.gap_second = own - mixed * mixed / other;
+  c.place_ratio = -mixed / other;
   c.gap_curvature = 0.5 * (by_first + by_second) - std::hypot(0.5 * (by_first - by_second), mixed);
   return c;
 }
@@ -97,13 +100,13 @@ bool on_plate(const Contact& c, const obstacle::Set& obstacles) {
   return c.coupling < 0 && c.obstacle > 0 && obstacles[0].curvature() != 0.0;
 }
 
-/// Beyond touches of a plate the rod goes on where it is, outward from the contacts of the cylinder.
+/// Beyond plates, and beyond strands beside them, the rod goes on where it is, outward from the contacts of the cylinder.
 void carry_turns_past_plates(std::vector<Contact>& contacts, std::vector<Piece>& pieces,
                              const obstacle::Set& obstacles) {
-  const auto first = std::find_if(contacts.begin(), contacts.end(),
-                                  [&](const Contact& c) { return !on_plate(c, obstacles); });
+  const auto counts = [&](const Contact& c) { return c.coupling < 0 && !on_plate(c, obstacles); };
+  const auto first = std::find_if(contacts.begin(), contacts.end(), counts);
   for (auto c = first; c != contacts.end(); ++c) {
-    if (!on_plate(*c, obstacles)) continue;
+    if (counts(*c)) continue;
     Piece &before = pieces[c->joint - 1], &after = pieces[c->joint];
     c->angle += turns(last(before), c->angle);
     after.angle.array() += turns(c->angle, after.angle(0));
@@ -152,8 +155,11 @@ void add_contacts(const Chain& chain, const Topology& topology, const VectorXd& 
       const double here = i == c.joint ? piece.angle(0) : piece.angle(piece.angle.size() - 1);
       piece.angle.array() += 2.0 * M_PI * std::round((c.angle - here) / (2.0 * M_PI));
     }
-  carry_turns_past_plates(out.contacts, out.pieces, out.obstacles);
-  carry_turns(out.contacts, out.pieces);
+  if (std::any_of(out.contacts.begin(), out.contacts.end(),
+                  [&](const Contact& c) { return on_plate(c, out.obstacles); }))
+    carry_turns_past_plates(out.contacts, out.pieces, out.obstacles);
+  else
+    carry_turns(out.contacts, out.pieces);
 }
 
 double total_contact_force(const Profile& profile, const Topology& topology) {

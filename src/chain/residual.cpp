@@ -26,7 +26,7 @@ VectorXd Chain::residual(const VectorXd& x, const Loads& loads) const {
       f.segment(numbering_.force[i], forces) = g.segment(2 * d, forces) + rise(x, p, i);
   }
   for (int j = 0; j < joint_count(); ++j) {
-    add_kept(joints_[j]->dead_load(coordinates(x, j), loads), j, f);
+    add_kept(joints_[j]->dead_load(coordinates(x, j), pulled(x, loads, j)), j, f);
     if (numbering_.location[j] < 0 || coupling_of_[j] >= 0) continue;
     const Joint::Location c = location(x, j);
     f(numbering_.location[j]) = c.value;
@@ -43,6 +43,13 @@ VectorXd Chain::residual(const VectorXd& x, const Loads& loads) const {
     if (gauges_.travel == Travel::none) f(numbering_.coordinate[j]) += share * x(slide_at_ + 1);
   }
   return f;
+}
+
+Loads Chain::pulled(const VectorXd& x, const Loads& loads, int joint) const {
+  if (travel() != Travel::blocked) return loads;
+  Loads out = loads;
+  out.tension += (joint == 0 ? -1.0 : 1.0) * travelled(x);
+  return out;
 }
 
 SmallVector Chain::force_at_end(const VectorXd& x, const Loads& loads, int link, const SmallVector& n,
@@ -62,7 +69,7 @@ std::optional<Joint::Stretching> Chain::stretching(const VectorXd& x, const Load
 std::optional<Joint::Drag> Chain::drag_at(const VectorXd& x, const Loads& loads, int link, Side side) const {
   if (gauges_.travel == Travel::none) return std::nullopt;
   const int d = links_[link].arc->tangent(), joint = side == Side::right ? link : link + 1;
-  return joints_[joint]->drag(side, coordinates(x, joint), loaded(x, loads),
+  return joints_[joint]->drag(side, coordinates(x, joint), loaded(x, loads, joint),
                               gradients_[link].segment(side == Side::right ? 0 : d, d));
 }
 

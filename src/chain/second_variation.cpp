@@ -57,6 +57,14 @@ Chain::SecondVariation Chain::second_variation(const VectorXd& x, const Loads& l
   for (Eigen::Index i = 0; i < dense.rows(); ++i)
     for (Eigen::Index j = 0; j < dense.cols(); ++j)
       if (dense(i, j) != 0.0) entries.emplace_back(i, j, dense(i, j));
+  if (holds_knot(numbering)) {
+    const VectorXd slid = slid_by(purpose, numbering, x, loads);
+    for (Eigen::Index k = 0; k < total; ++k) {
+      if (slid(k) == 0.0) continue;
+      entries.emplace_back(k, numbering.slide, slid(k));
+      entries.emplace_back(numbering.slide, k, slid(k));
+    }
+  }
   if (numbering.phase >= 0) {
     // K + τ M g gᵀ M, g of unit size: moves the phase out of the way and, as K g = 0, leaves all other eigenvectors as
     // they are. A straight rod has no such motion.

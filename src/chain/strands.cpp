@@ -41,9 +41,10 @@ bool Strands::pressed(int joint) const {
   return !inside_line(at);
 }
 
-int Strands::others(int begin, int end) const {
+int Strands::others(int begin, int end, bool touches) const {
   int count = 0;
-  for (int j = std::min(begin, end) + 1; j < std::max(begin, end); ++j) count += !inside_line(j);
+  for (int j = std::min(begin, end) + 1; j < std::max(begin, end); ++j)
+    count += !inside_line(j) && (!touches || partner_[j] >= 0);
   return count;
 }
 
@@ -69,9 +70,11 @@ void Strands::find_laid() {
   for (const StrandLine& line : lines_) {
     const int links = line.links(), low = links / 2, high = links - low;
     const std::vector<int>&first = line.first, &second = line.second;
-    const bool by_first = line.own_image()
-                              ? others(first.front(), first[low]) >= others(first[high], first.back())
-                              : divides_first(line);
+    const auto more = [&](bool touches) {
+      return others(first.front(), first[low], touches) - others(first[high], first.back(), touches);
+    };
+    const bool by_first =
+        line.own_image() ? more(false) > 0 || (more(false) == 0 && more(true) >= 0) : divides_first(line);
     for (int i = 1; i < links; ++i) {
       if (line.own_image() && 2 * i >= links) break;
       laid_[by_first ? first[i] : second[i]] = true;

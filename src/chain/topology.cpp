@@ -77,6 +77,15 @@ std::unique_ptr<Joint> end_joint(const RodKind& rod, const Topology& t, const Ar
   }
   if (closed_form(rod, tail))
     return std::make_unique<planar::FarEnd>(rod.spatial ? 3 : 1, rod.spatial ? 3 : 2);
+  if (rod.guided) {
+    if (!rod.spatial) throw std::invalid_argument("ends on sliders are computed with the Kirchhoff rod");
+    std::unique_ptr<Joint> frame;
+    if (kind == EndKind::spin_held)
+      frame = std::make_unique<spatial::HeldEnd>();
+    else
+      frame = std::make_unique<spatial::End>(arc_side, kind == EndKind::clamped);
+    return std::make_unique<spatial::GuidedEnd>(arc_side, std::move(frame));
+  }
   if (rod.spatial && kind == EndKind::spin_held) return std::make_unique<spatial::HeldEnd>();
   if (rod.spatial) return std::make_unique<spatial::End>(arc_side, kind == EndKind::clamped);
   return std::make_unique<planar::End>(arc_side, kind == EndKind::clamped);
@@ -90,7 +99,9 @@ std::unique_ptr<Joint> plate_joint(const RodKind& rod, const Topology& t, int jo
                                  &plate = rod.obstacles.pointer(t.seat(line).flat);
   if (t.stretches[other] != Stretch::line)
     return std::make_unique<spatial::FlatEdge>(flat, rod.bending_stiffness, cylinder, plate);
-  if (t.lies_flat(other)) throw std::invalid_argument("two line contacts cannot meet at a joint");
+  if (t.lies_flat(other) && t.seat(joint).strand == 0)
+    throw std::invalid_argument("two line contacts cannot meet at a joint");
+  if (t.lies_flat(other)) return std::make_unique<spatial::FlatPressed>(cylinder, plate);
   return std::make_unique<spatial::LiftOff>(flat, cylinder, plate);
 }
 
@@ -169,6 +180,7 @@ std::unique_ptr<Arc> make_arc(const RodKind& rod, Stretch stretch, int obstacle,
 /// mirror it is the other one.
 /// Ends that cannot spin turn with their rod only about one line.
 std::optional<contact::Parity> neutral_turn(const RodKind& rod, const Topology& t) {
+  if (rod.guided) return std::nullopt;
   const double half_turns = rod.pull_angle / M_PI, whole = std::round(half_turns);
   constexpr double nearly = 1e-5;  // there too the turn costs too little to be told from rounding
   if (!(std::abs(half_turns - whole) < nearly)) return std::nullopt;
@@ -214,9 +226,10 @@ Chain::Gauges gauges(const RodKind& rod, const Topology& t) {
     const bool upright = !rod.weighs[1] && !rod.weighs[2];  // nothing pulls it to a side
     if (!touched && upright && (rod.isotropic_straight() || pinned))
       g.phase = rod.isotropic_straight() ? -1.0 : 0.0;
+    g.knot = rod.knotted && !touched && !t.couplings().empty();
     return g;
   }
-  g.height = rod.spatial && rod.travel == Travel::none && !on_plate(t);
+  g.height = rod.spatial && rod.travel == Travel::none && !rod.guided && !on_plate(t);
   g.travel = rod.spatial ? rod.travel : Travel::none;
   g.spin = rod.spatial && !rod.holds_an_end() && rod.isotropic_straight();
   g.slide = true;
@@ -368,7 +381,7 @@ std::unique_ptr<Chain> build_chain(const RodKind& rod, const Topology& t,
                               : make_arc(rod, all[i], t.obstacle(i), mesh_of(i), !leftward);
     link.role = word(all[i]);
     if (strands.welded(i)) link.weld = true, link.arc = std::make_unique<rod::WeldArc>(*link.arc);
-    if (all[i] == Stretch::tail && !rod.strut) link.pull = leftward ? -1 : 1;
+    if (all[i] == Stretch::tail && !rod.strut && !rod.guided) link.pull = leftward ? -1 : 1;
     links.push_back(std::move(link));
   }
   auto chain = std::make_unique<Chain>(std::move(joints), std::move(fixed), std::move(links), gauges(rod, t),

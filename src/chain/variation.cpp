@@ -45,6 +45,7 @@ Variation::Variation(const Linearisation& at, Parity parity) : at_(at) {
   neutral_size_ = chain.neutral_size(at.x_, at.loads_);
   phase_ = numbering.phase;
   if (phase_ >= 0) hold_phase(purpose, numbering, dense);
+  if (chain.holds_knot(numbering)) hold_slide(purpose, numbering, dense);
   add_borders(dense);
   unknowns_ = dense.rows();
   dense = (0.5 * (dense + dense.transpose())).eval();
@@ -146,12 +147,23 @@ void Variation::hold_phase(Chain::Purpose purpose, const Chain::Numbering& numbe
   }
 }
 
+/// As Chain::condensed_variation; struts have no tails in closed form, so that the two list their unknowns alike.
+void Variation::hold_slide(Chain::Purpose purpose, const Chain::Numbering& numbering, MatrixXd& dense) {
+  slide_ = numbering.slide;
+  slid_by_ = at_.chain_.slid_by(purpose, numbering, at_.x_, at_.loads_);
+  for (std::size_t k = 0; k < dense_.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    dense(at, slide_) = dense(slide_, at) = slid_by_(dense_[k]);
+  }
+}
+
 void Variation::add_borders(MatrixXd& dense) {
   for (Place& here : places_) {
     const Arc& arc = *here.part->arc;
     if (arc.interior_nodes() == 0) continue;
     std::vector<Chain::Coupled> coupled = Chain::held_by(arc, dense);
     if (phase_ >= 0) coupled.push_back({phase_, motion_.segment(here.interior, arc.interior_tangent())});
+    if (slide_ >= 0) coupled.push_back({slide_, slid_by_.segment(here.interior, arc.interior_tangent())});
     here.borders = Chain::add_borders(arc, here.local, coupled, dense);
   }
 }
@@ -268,6 +280,10 @@ VectorXd Variation::product(const VectorXd& v) const {
     out += v(phase_) * motion_;
     out(phase_) += motion_.dot(v);
   }
+  if (slide_ >= 0) {
+    out += v(slide_) * slid_by_;
+    out(slide_) += slid_by_.dot(v);
+  }
   return out;
 }
 
@@ -288,6 +304,7 @@ Variation::Quotient Variation::quotient(const VectorXd& v) const {
   }
   for (const auto& entry : joints_) add(entry.value() * v(dense_[entry.row()]) * v(dense_[entry.col()]));
   if (phase_ >= 0) add(2.0 * v(phase_) * motion_.dot(v));
+  if (slide_ >= 0) add(2.0 * v(slide_) * slid_by_.dot(v));
   const double size = rotations(v).squaredNorm();
   return {value / size, std::numeric_limits<double>::epsilon() * sizes / size};
 }

@@ -110,6 +110,15 @@ Joint::Location FlatEdge::location(const double* w, const SmallVector& g_left,
   return c;
 }
 
+std::optional<Joint::Stretching> FlatEdge::stretching(const double* w, const SmallVector& n,
+                                                      double compliance) const {
+  std::optional<Stretching> out = edge_.stretching(on_edge(w).data(), n, compliance);
+  const SmallVector all = out->by_w;
+  out->by_w.resize(2);
+  out->by_w << all(0), all(3);
+  return out;
+}
+
 void FlatEdge::adopt(const Place& place, double* w) const {
   double all[4];
   edge_.adopt(place, all);
@@ -167,6 +176,40 @@ void FlatTouch::adopt(const Place& place, double* w) const {
   w[0] = touch_.surface()->coordinates(place.r, place.angle)(0);
   Eigen::Map<Vector2d>{w + 1} = surface_coordinates(place.q, base_);
   adopt_sign(place.q, base_, w + 1);
+}
+
+FlatPressed::FlatPressed(SurfacePointer line, const SurfacePointer& plate)
+    : line_(line), pressed_(std::move(line)), height_(height_of(*plate)) {}
+
+Attachment FlatPressed::attach(Side, const double* w, const Loads&) const { return lying_flat(w); }
+
+std::optional<Joint::Drag> FlatPressed::drag_of_push(const double* w, const Loads& loads,
+                                                     const Eigen::Vector3d& force) const {
+  const std::optional<Drag> all = pressed_.drag_of_push(on_line(w).data(), loads, force);
+  if (!all) return std::nullopt;
+  Drag out{SmallVector(2), flat_columns(flat_columns(all->by_w).transpose()).transpose(),
+           flat_columns(all->by_gradient.transpose()).transpose()};
+  out.value << all->value(0), all->value(3);
+  return out;
+}
+
+Centreline FlatPressed::centreline(const double* w) const {
+  Centreline at = pressed_.centreline(on_line(w).data());
+  const SmallMatrix dr = at.dr, dt = at.dt;
+  at.dr = flat_columns(dr);
+  at.dt = flat_columns(dt);
+  return at;
+}
+
+void FlatPressed::place_curvature(const double* w, const Eigen::Vector3d& f, SmallMatrix& out) const {
+  SmallMatrix all = SmallMatrix::Zero(4, 4);
+  pressed_.place_curvature(on_line(w).data(), f, all);
+  out(0, 0) += all(0, 0);
+}
+
+void FlatPressed::adopt(const Place& place, double* w) const {
+  const Vector2d flat = flat_coordinates(line_, place);
+  w[0] = flat(0), w[1] = flat(1);
 }
 
 LiftOff::LiftOff(Side flat_side, SurfacePointer line, SurfacePointer plate)

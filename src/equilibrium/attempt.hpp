@@ -43,6 +43,11 @@ std::optional<Started> reach(const Started& from, const scene::Scene& scene, dou
 std::optional<Started> followed_coil(const scene::Scene& scene, bool spatial, bool half,
                                      const std::vector<std::string>& keys, std::string& failure);
 
+/// A knot and no plate, relaxed as a rod that does not stretch at a pull at which its contacts are few, then stretched, then
+/// tightened or loosened.
+std::optional<Started> knot_start(const scene::Scene& scene, bool half, const std::vector<std::string>& keys,
+                                  std::string& failure);
+
 /// The scene of the rod that does not stretch, though its chain may.
 scene::Scene inextensible(scene::Scene scene);
 /// What a branch towards the rod that stretches is followed in.

@@ -10,6 +10,7 @@
 #include "entry.hpp"
 #include "friction_couple.hpp"
 #include "harvest.hpp"
+#include "stretched_drag.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/equilibrium/search.hpp"
 #include "windlass/rod/capstan.hpp"
@@ -162,10 +163,11 @@ std::optional<Started> under_the_plate(const Started& still, const scene::Scene&
   return laid;
 }
 
-std::optional<Started> dragged_on(const scene::Scene& scene, const chain::Profile& shape,
-                                  const std::vector<Pressing>& pressing, const std::vector<std::string>& keys,
-                                  std::string& failure) {
-  Layout layout = layout_of(pressing, loads_of(scene));
+namespace {
+
+/// The state near this shape on these contacts, or on those that follow where they do not hold.
+std::optional<Started> mended_on(Layout layout, const chain::Profile& shape, const scene::Scene& scene,
+                                 const std::vector<std::string>& keys, std::string& failure) {
   const std::string contacts = layout.topology.text();
   const std::optional<Started> laid = on_contacts(std::move(layout), shape, 0.0, scene, keys, {});
   if (!laid) return failure = "Newton did not converge on the contacts " + contacts, std::nullopt;
@@ -182,11 +184,45 @@ std::optional<Started> dragged_on(const scene::Scene& scene, const chain::Profil
   return std::nullopt;
 }
 
+/// States between sliders, each next to one whose ends are free to move.
+std::vector<Started> dragged_between_sliders(const scene::Scene& scene, const std::vector<std::string>& keys,
+                                             std::string& searched) {
+  scene::Scene loose = scene;
+  loose.ends.guide = scene::Guide::none;
+  std::vector<Started> out;
+  std::string lost;
+  for (const Started& state : dragged_states(loose, {"cylinder.friction"}, searched)) {
+    std::string failure;
+    try {
+      const chain::Profile shape = state.problem->profile(state.x, state.p);
+      Layout layout{state.problem->topology(), state.problem->joint_places(state.x, state.p, shape),
+                    state.problem->meshes()};
+      if (auto held = mended_on(std::move(layout), shape, scene, keys, failure))
+        out.push_back(*held);
+      else
+        lost += "; one was not found between sliders: " + failure;
+    } catch (const NoEquilibrium& none) {
+      lost += fmt::format("; one was not found between sliders: {}", none.what());
+    }
+  }
+  searched += fmt::format("; {} of them between sliders", out.size()) + lost;
+  return out;
+}
+
+}  // namespace
+
+std::optional<Started> dragged_on(const scene::Scene& scene, const chain::Profile& shape,
+                                  const std::vector<Pressing>& pressing, const std::vector<std::string>& keys,
+                                  std::string& failure) {
+  return mended_on(layout_of(pressing, loads_of(scene)), shape, scene, keys, failure);
+}
+
 Started flat_on_plate(const scene::Scene& scene, const std::vector<std::string>& keys) {
   std::string failure;
   // Without a line the coil in space is free to turn: its shape is that of the plane.
   const bool lies = rod::capstan::line_contact(scene.load.tension, scene.load.angle);
-  const std::optional<Started> still = followed_coil(standing(scene), lies, false, keys, failure);
+  const std::optional<Started> still =
+      followed_coil(standing(scene), lies || scene.ends.guided(), false, keys, failure);
   if (!still) throw NoEquilibrium("there is no flat coil: " + failure);
   Topology topology = still->problem->topology();
   topology.on.resize(topology.stretches.size() + 1);
@@ -304,6 +340,8 @@ Started coil_on_plate(const scene::Scene& scene, const std::vector<std::string>&
 std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector<std::string>& keys,
                                     std::string& searched) {
   if (scene.friction_arm() > 0.0) return dragged_with_couple(scene, keys, searched);
+  if (scene.ends.guided()) return dragged_between_sliders(scene, keys, searched);
+  if (scene.rod.extensible) return dragged_with_stretch(scene, keys, searched);
   constexpr double flat = 1e-6;  // [ρ]
   // Next to nothing; with more friction the plate holds the tail nearer to the coil, so that short tails need more.
   constexpr double least = 1e-3, next = 2.0, most = 0.1;

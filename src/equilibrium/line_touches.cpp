@@ -64,6 +64,15 @@ class Course {
   }
 
   double other(double s) const { return interpolated(s_, other_, s); }
+  /// Where other(s) is that, between two places.
+  double where(double other, double low, double high) const {
+    const bool rises = this->other(high) > this->other(low);
+    for (int k = 0; k < 60; ++k) {
+      const double middle = 0.5 * (low + high);
+      ((this->other(middle) < other) == rises ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+  }
   double rate(double s) const {
     const auto after = std::clamp<std::size_t>(
         static_cast<std::size_t>(std::upper_bound(s_.begin(), s_.end(), s) - s_.begin()), 1, s_.size() - 1);
@@ -100,9 +109,10 @@ struct PartEnds {
 
 /// Places between two, `begin` and `end` not among them.
 std::vector<double> laid_out(const Course& course, double begin, double end, const PartEnds& ends,
-                             double stiffness, double finer, double& needed) {
+                             const chain::Profile& profile, double finer, double& needed) {
   // A force that no touch takes up where it acts spreads over those beside it, the farther the more it tilts the strands.
   constexpr double quarter = 0.25, denser = 1.5, densest = 5.0;
+  const double stiffness = profile.material.bending_stiffness;
   const auto beside = [&](int end) {
     return !ends.presses[end] ? 0.0 : ends.touched[end] ? denser : densest;
   };
@@ -124,7 +134,9 @@ std::vector<double> laid_out(const Course& course, double begin, double end, con
   const bool divides = finer * sum.back() > enough;
   const double before = divides && !ends.touched[0] ? 0.5 : 0.0,
                behind = divides && !ends.touched[1] ? 0.5 : 0.0;
-  const int links = std::max(1, static_cast<int>(std::ceil(finer * sum.back() + before + behind)));
+  const double room = (end - begin) / (laid_apart * profile.unit_length);
+  const int links = static_cast<int>(
+      std::max(1.0, std::min(std::ceil(finer * sum.back() + before + behind), std::floor(room))));
   std::vector<double> out;
   int k = 0;
   for (int i = 1; i < links; ++i) {
@@ -135,13 +147,36 @@ std::vector<double> laid_out(const Course& course, double begin, double end, con
   return out;
 }
 
-/// One line of a skeleton: its ends, along the strand that is divided, and the joints between them.
+/// One line of a skeleton: its ends, along the strand that is divided, and the joints between them; the edges on its other strand.
 struct Divided {
-  std::vector<double> s;
+  std::vector<double> s, edges;
   double other_begin, other_end;
   bool image, own_image, by_first;
   int mark;
 };
+
+/// Does another strand press where a joint of a strip is?
+bool strand_presses(const Strip& strip, double s) {
+  const auto at = std::find(strip.s.begin(), strip.s.end(), s);
+  return at != strip.s.end() && strip.on[static_cast<std::size_t>(at - strip.s.begin())].strand != 0;
+}
+
+/// Of the two halves of a line with its own image, by the joints in them: see chain::Strands::laid.
+bool divides_lower(const Strip& strip, const std::vector<double>& lower, const std::vector<double>& upper) {
+  if (lower.size() != upper.size()) return lower.size() > upper.size();
+  const auto presses = [&](double s) { return strand_presses(strip, s); };
+  return std::count_if(lower.begin(), lower.end(), presses) >=
+         std::count_if(upper.begin(), upper.end(), presses);
+}
+
+std::vector<double> edges_among(const Strip& strip, const std::vector<double>& places) {
+  std::vector<double> out;
+  std::copy_if(places.begin(), places.end(), std::back_inserter(out), [&](double s) {
+    const auto at = std::find(strip.s.begin(), strip.s.end(), s) - strip.s.begin();
+    return strip.on[static_cast<std::size_t>(at)].strand == 0;
+  });
+  return out;
+}
 
 Divided divided(const Strip& strip, const Strands& strands, const StrandLine& line,
                 const std::vector<Touched>& known) {
@@ -167,8 +202,9 @@ Divided divided(const Strip& strip, const Strands& strands, const StrandLine& li
   };
   if (out.own_image) {
     const std::vector<double> lower = between(strip.s[begin], middle), upper = between(middle, strip.s[end]);
-    out.by_first = lower.size() >= upper.size();
+    out.by_first = divides_lower(strip, lower, upper);
     out.s = out.by_first ? lower : upper;
+    out.edges = edges_among(strip, out.by_first ? upper : lower);
     out.s.insert(out.s.begin(), out.by_first ? strip.s[begin] : middle);
     out.s.push_back(out.by_first ? middle : strip.s[end]);
     out.other_begin = out.by_first ? strip.s[end] : middle;
@@ -180,6 +216,7 @@ Divided divided(const Strip& strip, const Strands& strands, const StrandLine& li
   if (!out.by_first) std::swap(begin, other_begin), std::swap(end, other_end);
   if (begin > end) std::swap(begin, end), std::swap(other_begin, other_end);
   out.s = out.by_first ? first : second;
+  out.edges = edges_among(strip, out.by_first ? second : first);
   out.s.insert(out.s.begin(), strip.s[begin]), out.s.push_back(strip.s[end]);
   out.other_begin = strip.s[other_begin], out.other_end = strip.s[other_end];
   return out;
@@ -191,12 +228,6 @@ double clear_of(const Strip& strip, double s) {
   for (const double at : strip.s)
     if (std::abs(s - at) < clear) return s < at ? at - clear : at + clear;
   return s;
-}
-
-/// Does another strand press where a joint of a strip is?
-bool strand_presses(const Strip& strip, double s) {
-  const auto at = std::find(strip.s.begin(), strip.s.end(), s);
-  return at != strip.s.end() && strip.on[static_cast<std::size_t>(at - strip.s.begin())].strand != 0;
 }
 
 /// Lays the touches of lines on a strip. Between the same two joints of a strand all lines have theirs at the same places; where
@@ -263,8 +294,8 @@ class Layer {
         };
         const PartEnds ends{inner, {!inner[0] || closed(bounds.first), !inner[1] || closed(bounds.second)}};
         double links = 0.0;
-        const std::vector<double> own = laid_out(course_of(other), bounds.first, bounds.second, ends,
-                                                 profile_.material.bending_stiffness, finer_, links);
+        const std::vector<double> own =
+            laid_out(course_of(other), bounds.first, bounds.second, ends, profile_, finer_, links);
         if (&other == &line) needed += links;
         if (own.size() > most.size()) most = own;
       }
@@ -295,6 +326,22 @@ class Layer {
   std::map<std::pair<double, double>, std::vector<double>> between_;  ///< places between two joints
 };
 
+/// An edge moves along its own strand, and the touches there, which tangency locates, are not to meet it: what is divided is divided at
+/// the place that faces it, too, of all lines along that strand alike.
+void break_at_edges(std::vector<Divided>& lines, const std::vector<Touched>& known) {
+  std::vector<double> facing;
+  for (const Divided& line : lines) {
+    const Course course(known, line.s.front(), line.other_begin, line.s.back(), line.other_end, line.image);
+    for (const double edge : line.edges) facing.push_back(course.where(edge, line.s.front(), line.s.back()));
+  }
+  for (Divided& line : lines)
+    for (const double s : facing) {
+      const auto after = std::upper_bound(line.s.begin(), line.s.end(), s);
+      if (after == line.s.begin() || after == line.s.end()) continue;
+      if (s - *(after - 1) > at_touch && *after - s > at_touch) line.s.insert(after, s);
+    }
+}
+
 }  // namespace
 
 Skeleton skeleton_of(const Strip& strip) {
@@ -321,6 +368,7 @@ Successor with_touches(const Successor& skeleton, const chain::Profile& profile,
   for (const StrandLine& line : strands.lines())
     if (!line.on_obstacles || strip.on[line.first.front()].line != 0)
       lines.push_back(divided(strip, strands, line, known));
+  break_at_edges(lines, known);
   Layer(strip, lines, profile, known, finer).lay();
   measure_parts(strip);
   return strip.successor();

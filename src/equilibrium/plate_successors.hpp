@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "strip.hpp"
@@ -15,9 +14,8 @@ std::vector<Successor> flat_line_lifts(int link, const Strip& strip, const chain
 
 /// Where the edge of a line and a touch of the plate meet, beyond which the rod lies flat in the plate, the line itself reaches the
 /// plate and lies on both from there on; and the other way round. Where a touch of the cylinder, or of another strand, and one of
-/// the plate meet they change places: the rod lies flat from the plate's touch on, and the other is one of both. Nothing for other
-/// arcs.
-std::optional<Successor> flat_line_begins_or_ends(int link, const chain::Profile& profile,
-                                                  const Strip& strip);
+/// the plate meet they change places: the rod lies flat from the plate's touch on, and the other is one of both. What lies in the plate
+/// may be a tail, or a line on it. Nothing for other arcs.
+std::vector<Successor> flat_line_begins_or_ends(int link, const chain::Profile& profile, const Strip& strip);
 
 }  // namespace windlass::equilibrium

@@ -328,7 +328,7 @@ Solution record(RodProblem& problem, const Vector& x, const Vector& p) {
   measure_invariants(out, problem.rod(), loads);
   if (loads.compliance != 0.0) out.stretch = largest_stretch(out, loads.compliance);
   if (loads.weighs()) out.weight_energy = energy_of_weight(whole, loads.weight());
-  if (out.dragged) measure_drag(out, *scene.friction);
+  if (out.dragged) measure_drag(out, *scene.friction, loads.compliance);
   out.error_estimate = problem.last_error();
   out.restart = restart_of(problem, x);
   multiply(out, scene.solved_in);

@@ -41,19 +41,12 @@ bool begins_flat(const Topology& topology, const std::vector<int>& links, std::s
          topology.touches_flat(links[k]);
 }
 
-/// mu N d_z of the contacts where the rod lies on a plate, too: it takes the friction on the spot. @returns the sum
-double drag_on_plate(Solution& state, const Topology& topology, const std::vector<int>& links,
-                     double upward) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < state.arcs.size(); ++k) {
-    ArcRecord& arc = state.arcs[k];
-    JointRecord& joint = state.joints[k];
-    if (topology.lies_flat(links[k])) arc.plate_force = upward * arc.force;
-    const bool flat = begins_flat(topology, links, k);
-    if (flat && joint.obstacle == 0) joint.plate_force = upward * joint.force;
-    sum += arc.plate_force + joint.plate_force;
-  }
-  return sum;
+/// Speed of the rod along itself at a joint, over that of the cylinder: ω times its stretch, the mean of the two sides.
+double speed_at(const Solution& state, std::size_t joint, double compliance) {
+  if (compliance == 0.0) return state.travel_rate;
+  const ArcRecord &before = state.arcs[joint - 1], &after = state.arcs[joint];
+  const Vector3d n = 0.5 * (before.n.rightCols<1>() + after.n.col(0));
+  return state.travel_rate * (1.0 + compliance * n.dot(rod::directors(after.q.col(0)).col(2)));
 }
 
 /// What another strand pushes a joint with.
@@ -61,7 +54,39 @@ Vector3d push_of_strand(const Solution& state, const JointRecord& joint) {
   return joint.partner < 0 ? Vector3d::Zero() : Vector3d(joint.strand_force * strand_direction(state, joint));
 }
 
-/// The same of the other contacts: what they take of the force along the axis.
+/// mu N d_z of the contacts where the rod lies on a plate, too: it takes the friction on the spot. @returns the sum
+double drag_on_plate(Solution& state, const Topology& topology, const std::vector<int>& links,
+                     double friction, double compliance) {
+  const auto up = [&](double speed) { return friction / std::sqrt(1.0 + speed * speed); };
+  const double upward = up(state.travel_rate);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < state.arcs.size(); ++k) {
+    ArcRecord& arc = state.arcs[k];
+    JointRecord& joint = state.joints[k];
+    if (topology.lies_flat(links[k])) arc.plate_force = upward * arc.force;
+    const bool flat = begins_flat(topology, links, k);
+    if (flat && joint.obstacle == 0)
+      joint.plate_force = (k > 0 ? up(speed_at(state, k, compliance)) : upward) * joint.force;
+    sum += arc.plate_force + joint.plate_force;
+  }
+  return sum;
+}
+
+/// What strands push lines with that lie on cylinder and plate, or their edges at an event, along the axis: it goes straight to the
+/// plate. @returns the sum
+double push_on_plate(Solution& state, const Topology& topology, const std::vector<int>& links) {
+  double sum = 0.0;
+  for (std::size_t k = 1; k < state.arcs.size(); ++k) {
+    JointRecord& joint = state.joints[k];
+    if (joint.obstacle != 0 || !(topology.lies_flat(links[k - 1]) || topology.lies_flat(links[k]))) continue;
+    const double push = push_of_strand(state, joint)(2);
+    joint.plate_force += push;
+    sum += push;
+  }
+  return sum;
+}
+
+/// mu N d_z of the other contacts: what they take of the force along the axis.
 double axial_drag(const Solution& state, const Topology& topology, const std::vector<int>& links) {
   double sum = 0.0;
   for (std::size_t k = 0; k < state.arcs.size(); ++k) {
@@ -78,7 +103,7 @@ double axial_drag(const Solution& state, const Topology& topology, const std::ve
 
 }  // namespace
 
-void measure_drag(Solution& out, double friction) {
+void measure_drag(Solution& out, double friction, double compliance) {
   out.invariants.hamiltonian_drift = out.invariants.force_residual = 0.0;
   if (out.travel_rate != 0.0) out.invariants.axial_torque_drift = 0.0;
   for (std::size_t k = 1; k + 1 < out.joints.size(); ++k) {
@@ -87,7 +112,7 @@ void measure_drag(Solution& out, double friction) {
     const Vector3d t = rod::directors(after.q.col(0)).col(2);
     Vector3d force = joint.force * joint.normal + push_of_strand(out, joint);
     if (joint.obstacle == 0)
-      force += joint.force * friction * (Vector3d::UnitZ() - out.travel_rate * t).normalized();
+      force += joint.force * friction * (Vector3d::UnitZ() - speed_at(out, k, compliance) * t).normalized();
     const Vector3d rest = before.n.rightCols<1>() - after.n.col(0) - force;
     out.invariants.force_residual = std::max(out.invariants.force_residual, rest.head<2>().norm());
   }
@@ -112,11 +137,10 @@ void record_drag(const RodProblem& problem, const Vector& x, const contact::Load
   }
   const double travelled = problem.chain().travelled(x);
   (scene.ends.travel == scene::Travel::free ? out.travel_rate : out.pull_difference) = travelled;
-  const double upward = *scene.friction / std::sqrt(1.0 + out.travel_rate * out.travel_rate);
   const std::vector<int> links = links_of(out, places_of(problem, x, loads));
   const Topology whole = chain::unfolded(problem.topology());
-  const double on_plate = drag_on_plate(out, whole, links, upward);
-  out.plate_force += on_plate;
+  const double on_plate = drag_on_plate(out, whole, links, *scene.friction, loads.compliance);
+  out.plate_force += on_plate + push_on_plate(out, whole, links);
   out.F0 = on_plate + axial_drag(out, whole, links);
 }
 

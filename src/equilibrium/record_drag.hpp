@@ -11,6 +11,7 @@ void record_drag(const RodProblem& problem, const Vector& x, const contact::Load
 
 /// Of a dragged state only what friction leaves is conserved: the axial torque where the rod does not run along itself.
 /// The residual of the forces is that of the contacts of the cylinder, across the axis: N (e_r + mu d).
-void measure_drag(Solution& out, double friction);
+/// @param compliance  1/EA: a rod that stretches runs faster along itself
+void measure_drag(Solution& out, double friction, double compliance);
 
 }  // namespace windlass::equilibrium

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
 #include "dense_samples.hpp"
 #include "friction_couple.hpp"
+#include "stretched_drag.hpp"
 #include "windlass/chain/singular_matrix.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/equilibrium/start.hpp"
@@ -33,6 +35,7 @@ double Loads::*field_of(const std::string& key, const scene::Scene& scene) {
   if (key == "ends.shortening") return &Loads::shortening;
   if (key == "ends.twist") return &Loads::twist;
   if (key == "rod.radius" && has_rim(scene)) return nullptr;
+  if (key == "ends.guide_offset") return &Loads::guide_offset;
   if (key == "rod.radius") return scene.friction_has_couple() ? &Loads::arm : &Loads::radius;
   if (key == "cylinder.friction") return &Loads::friction;
   if (key == "rod.axial_compliance") return &Loads::compliance;
@@ -56,6 +59,8 @@ Loads loads_of(const scene::Scene& scene) {
   loads.friction = scene.dragging_friction();
   loads.arm = scene.friction_arm();
   loads.compliance = scene.rod.compliance();
+  loads.guide_offset = scene.ends.guide_offset;
+  loads.guide_height = scene.plate ? scene.plate->height : 0.0;
   std::tie(loads.weight_x, loads.weight_y, loads.weight_z) = std::tuple_cat(scene.rod.weight);
   return loads;
 }
@@ -77,6 +82,7 @@ chain::RodKind rod_of(const scene::Scene& scene, bool spatial) {
   rod.left = end_kind(scene, scene.ends.left_kind());
   rod.right = end_kind(scene, scene.ends.right_kind());
   rod.infinite = scene.rod.infinite();
+  rod.guided = scene.ends.guided();
   rod.strut = !scene.has_cylinder;
   rod.obstacles = obstacle::obstacles_of(scene);
   if (!spatial && scene.plate)
@@ -86,6 +92,7 @@ chain::RodKind rod_of(const scene::Scene& scene, bool spatial) {
   constexpr double twentieth = 0.05;  // a capstan's rod has a length of some 20 ρ
   if (rod.strut) rod.unit_length = twentieth * scene.rod.length;
   rod.under_thrust = !scene.ends.shortening.has_value();
+  rod.knotted = rod.strut && scene.knot.tied();
   if (spatial && scene.has_cylinder) rod.pull_angle = scene.load.angle;
   rod.bending_stiffness = scene.rod.bending_stiffness;
   rod.stiffness = {scene.rod.bending_stiffness_2, scene.rod.bending_stiffness,
@@ -107,10 +114,18 @@ RodProblem::RodProblem(scene::Scene scene, bool spatial, Topology topology,
   rebuild();
 }
 
-bool RodProblem::admits(const Topology& topology) const {
+const char* RodProblem::missing_on(const Topology& topology) const {
+  const auto asked = [&](double Loads::*field) {
+    return base_.*field != 0.0 || std::find(fields_.begin(), fields_.end(), field) != fields_.end();
+  };
   const bool thickens = std::find(keys_.begin(), keys_.end(), "rod.radius") != keys_.end();
-  const bool couple = base_.arm != 0.0 || (thickens && scene_.friction_has_couple());
-  return !couple || (spatial_ && carries_couple(topology));
+  if ((asked(&Loads::arm) || (thickens && scene_.friction_has_couple())) &&
+      !(spatial_ && carries_couple(topology)))
+    return "cylinder.friction_couple";
+  if (rod_.travel != chain::Travel::none && asked(&Loads::compliance) &&
+      !carries_stretch(topology, rod_.travel))
+    return "rod.extensible";
+  return nullptr;
 }
 
 void RodProblem::rebuild() {
@@ -123,7 +138,9 @@ void RodProblem::rebuild() {
   if (varies("rod.weight_y")) rod_.weighs[1] = true;
   if (varies("rod.weight_z")) rod_.weighs[2] = true;
   base_ = loads_of(scene_);
-  if (!admits(topology_)) throw NoEquilibrium(couple_not_carried());
+  if (const char* key = missing_on(topology_))
+    throw NoEquilibrium(key == std::string_view("rod.extensible") ? stretch_not_carried()
+                                                                  : couple_not_carried());
   chain_ = chain::build_chain(rod_, topology_, meshes_);
   chain_->let_slide(slides_);
   finer_.reset();

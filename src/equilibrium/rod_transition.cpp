@@ -1,6 +1,9 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "entry.hpp"
@@ -92,14 +95,17 @@ bool settle_beside(Entry& entry, const std::vector<double>& offsets) {
   return false;
 }
 
-/// The same, a touch in the place of a line on a plane that has no length left: it holds on one side of the event, from
-/// where its curvature is that at which it gives way (`least_curvature`).
-bool settle_touch(Entry& entry) {
+/// The same, on either side of the event. @param parts  of p(0), by how far
+bool settle_on_either_side(Entry& entry, std::initializer_list<double> parts) {
   std::vector<double> offsets;
-  for (const double offset : {1e-4, 4e-4, 2e-3, 1e-2})
+  for (const double offset : parts)
     for (const double sign : {-1.0, 1.0}) offsets.push_back(sign * offset * std::abs(entry.p(0)));
   return settle_beside(entry, offsets);
 }
+
+/// The same, a touch in the place of a line on a plane that has no length left: it holds on one side of the event, from
+/// where its curvature is that at which it gives way (`least_curvature`).
+bool settle_touch(Entry& entry) { return settle_on_either_side(entry, {1e-4, 4e-4, 2e-3, 1e-2}); }
 
 /// Link of a line on a plane that begins or ends at the event, in `lines`; −1: it is none.
 int straight_line(const RodProblem& lines, int link) {
@@ -134,6 +140,13 @@ bool extrapolate(Entry& touch, double p) {
   return true;
 }
 
+/// State of a touch at p(0). Of struts it is singular there; a plate's touch is not.
+bool bring_touch_to(Entry& touch, double p) {
+  if (touch.problem->rod().strut) return extrapolate(touch, p);
+  touch.p(0) = p;
+  return touch.problem->polish(touch.x, touch.p) >= 0;
+}
+
 /// The event where a line on a plane begins, and the touch in its place.
 std::optional<continuation::Transition::Located> located_onset(Entry line, int link, Entry touch) {
   std::optional<Vanishing> begins;
@@ -142,7 +155,7 @@ std::optional<continuation::Transition::Located> located_onset(Entry line, int l
   if (!tried([&] {
         begins = where_length_vanishes(*line.problem, line.x, line.p, link,
                                        4.0 * least_length * line.problem->rod().unit_length);
-        return begins && extrapolate(touch, begins->p) &&
+        return begins && bring_touch_to(touch, begins->p) &&
                touch.problem->residual_norm(touch.problem->residual(touch.x, touch.p)) < settled;
       }))
     return std::nullopt;
@@ -232,6 +245,8 @@ std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const 
       entered = open_in_turn(guess, next.opened, most_together, event.redrawn, guess.p(0));
       return true;
     });
+    Entry near = guess;
+    if (!entered && next.beside && settle_on_either_side(near, {1e-3, 4e-3, 1.6e-2, 4e-2})) entered = near;
     return entered;
   }
   Entry beside = guess;
@@ -254,10 +269,12 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
   const chain::Profile shape = profile(x, p);
   const ContactEvent event = contact_events(shape, topology_).at(which);
   std::optional<continuation::Transition> first;
-  std::string beyond;  // contacts on which friction has no moment yet
+  std::string beyond;  // contacts that something in the scene is not built for
   for (const Successor& next : successors(event, shape, topology_, joint_places(x, p, shape))) {
-    if (!admits(next.topology)) {
-      beyond = next.topology.text();
+    if (const char* key = missing_on(next.topology)) {
+      beyond =
+          fmt::format("{} ({} is not built for {})", next.topology.text(), key,
+                      key == std::string_view("rod.extensible") ? "lines that friction stretches" : "lines");
       continue;
     }
     continuation::Transition transition;
@@ -291,7 +308,8 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
       continue;  // not where it came from
     if (!tried([&] { return found->problem->settle(found->x, found->p), true; })) continue;
     const auto here = std::static_pointer_cast<RodProblem>(clone());
-    if (event.kind == Kind::length && transition.precision < 0.0 && topology_.beside_strand(event.place))
+    if (event.kind == Kind::length && !event.redrawn && transition.precision < 0.0 &&
+        topology_.beside_strand(event.place))
       transition.located = located_vanishing({here, x, p}, event.place);
     else if (shrinks)
       transition.located = located_onset({here, x, p}, event.place, *found);
@@ -306,7 +324,7 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
   }
   if (beyond.empty()) return first;
   continuation::Transition end;  // null problem: the branch ends here
-  end.before = topology_.text(), end.after = beyond + " (cylinder.friction_couple is not built for lines)";
+  end.before = topology_.text(), end.after = beyond;
   end.precision = to_flat(*std::static_pointer_cast<RodProblem>(clone()), x, p, shape, event);
   return end;
 }

@@ -77,8 +77,13 @@ double potential(const Solution& at, const scene::Scene& scene) {
   if (!at.has_cylinder)
     return at.energy + at.weight_energy -
            (scene.ends.shortening ? 0.0 : scene.load.thrust.value_or(0.0) * at.shortening * scene.rod.length);
-  // The force at an end is the pull there.
   const double length = last.s(last.s.size() - 1) - first.s(0);
+  if (scene.ends.guided()) {  // what holds an end on its guide does no work
+    const Eigen::Vector3d right(std::cos(0.5 * at.phi), std::sin(0.5 * at.phi), 0.0),
+        left(-right.x(), right.y(), 0.0);
+    return at.energy + at.T * (length - right.dot(last.r.rightCols<1>()) - left.dot(first.r.col(0)));
+  }
+  // The force at an end is the pull there.
   return at.energy + at.T * length - last.n.rightCols<1>().dot(last.r.rightCols<1>()) +
          first.n.col(0).dot(first.r.col(0));
 }

@@ -58,7 +58,7 @@ struct Flat {
 Flat flat_state(const scene::Scene& scene, const std::vector<std::string>& keys) {
   Flat flat;
   try {
-    if (scene.has_cylinder && scene.strand_radius() > 0.0) {
+    if (scene.has_cylinder && (scene.strand_radius() > 0.0 || scene.ends.guided())) {
       flat.rod = cold_start(scene, true, scene.half_turn(), keys);
     } else if (scene.has_cylinder) {
       flat.planar = cold_start(scene, false, true, keys);
@@ -213,6 +213,8 @@ Equilibria solve_capstan(const scene::Scene& scene, const std::vector<std::strin
     if (kirchhoff) return finish(best.at, "asked for");
     if (scene.strand_radius() > 0.0)
       return finish(best.at, "a rod that touches itself leaves the plane: Kirchhoff rod with its thickness");
+    if (flat.index == 0 && scene.ends.guided() && is(best, print))
+      return finish(best.at, "the flat state is stable; ends on sliders are computed with the Kirchhoff rod");
     if (flat.index == 0 && half && is(best, print)) return solve_flat(scene, *flat.planar);
     if (!half) return finish(best.at, "the full chain was asked for (model.symmetry = \"none\")");
     if (!flat.rod) return finish(best.at, "there is no flat state in contact: " + flat.why);

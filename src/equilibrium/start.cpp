@@ -5,6 +5,7 @@
 
 #include "attempt.hpp"
 #include "dragged_start.hpp"
+#include "knot_on_plate.hpp"
 #include "windlass/knot/start_curve.hpp"
 #include "windlass/rod/capstan.hpp"
 #include "windlass/scene/error.hpp"
@@ -83,7 +84,7 @@ std::optional<Started> thick_coil(const scene::Scene& scene, bool half, const st
 /// A thick coil relaxed as a discrete rod, where no other way leads there.
 std::optional<Started> relaxed_coil(const scene::Scene& scene, bool half,
                                     const std::vector<std::string>& keys, std::string& failure) {
-  if (!scene.free_of_torsion()) return std::nullopt;
+  if (!scene.free_of_torsion() || scene.ends.guided()) return std::nullopt;  // it knows dead pulls only
   std::string not_relaxed;
   const std::optional<Started> relaxed = relaxed_start(scene, {}, keys, not_relaxed);
   if (!relaxed) failure += "; nor relaxed as a discrete rod: " + not_relaxed;
@@ -102,7 +103,18 @@ std::vector<double> relaxing_pulls(const scene::Scene& scene) {
   return {std::clamp(scene.load.tension, loose, tight), 1.0, 1.5, 0.6};
 }
 
-/// A knot, relaxed at such a pull as a rod that does not stretch, then stretched, then tightened or loosened.
+/// The first state that has left the plate; the flat coil, which the automatic rung starts with, where there is none.
+Started dragged_first(const scene::Scene& scene, const std::vector<std::string>& keys) {
+  if (scene.model.kind != scene::ModelKind::kirchhoff && scene.friction_arm() == 0.0)
+    return coil_on_plate(scene, keys);
+  std::string searched;
+  const std::vector<Started> states = dragged_states(scene, keys, searched);
+  if (states.empty()) throw NoEquilibrium("no state that has left the plate was found: " + searched);
+  return states.front();
+}
+
+}  // namespace
+
 std::optional<Started> knot_start(const scene::Scene& scene, bool half, const std::vector<std::string>& keys,
                                   std::string& failure) {
   const knot::Curve curve = knot::start_curve(scene);
@@ -119,18 +131,6 @@ std::optional<Started> knot_start(const scene::Scene& scene, bool half, const st
   }
   return std::nullopt;
 }
-
-/// The first state that has left the plate; the flat coil, which the automatic rung starts with, where there is none.
-Started dragged_first(const scene::Scene& scene, const std::vector<std::string>& keys) {
-  if (scene.model.kind != scene::ModelKind::kirchhoff && scene.friction_arm() == 0.0)
-    return coil_on_plate(scene, keys);
-  std::string searched;
-  const std::vector<Started> states = dragged_states(scene, keys, searched);
-  if (states.empty()) throw NoEquilibrium("no state that has left the plate was found: " + searched);
-  return states.front();
-}
-
-}  // namespace
 
 std::optional<Started> followed_coil(const scene::Scene& scene, bool spatial, bool half,
                                      const std::vector<std::string>& keys, std::string& failure) {
@@ -153,7 +153,12 @@ std::optional<Started> followed_coil(const scene::Scene& scene, bool spatial, bo
 
 Started cold_start(const scene::Scene& asked, bool spatial, bool half, const std::vector<std::string>& keys) {
   const scene::Scene scene = scene::natural(asked);
+  spatial = spatial || scene.ends.guided();
   std::string failure;
+  if (scene.knot.tied() && scene.plate) {
+    if (auto knot = knot_on_plate(scene, keys, failure)) return *knot;
+    throw NoEquilibrium("no equilibrium of the knot on its plate was found: " + failure);
+  }
   if (spatial && scene.slides()) return dragged_first(scene, keys);
   if (const double compliance = scene.rod.compliance();
       compliance != 0.0 && scene.has_cylinder && !scene.knot.tied()) {

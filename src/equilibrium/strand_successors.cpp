@@ -26,6 +26,23 @@ std::optional<Successor> strand_passes_edge(int link, Strip strip) {
   const int obstacle = strip.on[edge].obstacle;
   std::swap(strip.on[edge], strip.on[other]);
   strip.on[edge].obstacle = strip.on[other].obstacle = obstacle;
+  if (chain::Seat& free = strip.on[edge]; line && free.flat >= 0) free.obstacle = free.flat;  // in the plate
+  measure_parts(strip);
+  return strip.successor();
+}
+
+/// A touch with a strand that presses on a line passes the place where the line leaves a plate.
+std::optional<Successor> strand_passes_lift_off(int link, Strip strip) {
+  const auto flat = [&](int part) { return strip.is_line(part) ? strip.on[part].flat : -1; };
+  const bool before = strip.on[link].strand != 0, after = strip.on[link + 1].strand != 0;
+  const int beside = before ? link + 1 : link - 1;  // beyond the place
+  if (before == after || !strip.is_line(link) || !strip.is_line(link - 1) || !strip.is_line(link + 1) ||
+      flat(link) == flat(beside))
+    return std::nullopt;
+  const int inside = flat(beside), behind = flat(link + 1);
+  std::swap(strip.on[link], strip.on[link + 1]);
+  strip.on[link].flat = inside, strip.on[link + 1].flat = behind;
+  strip.parts[link].fresh = true;
   measure_parts(strip);
   return strip.successor();
 }
@@ -75,10 +92,9 @@ std::optional<Successor> touches_meet(int link, Strip strip) {
   }
   if (std::abs(first - second) != 1) return std::nullopt;
   const int other = std::min(first, second), strand = strip.on[link].strand;
-  for (const int joint : {other, link}) {
-    unite_marks(joint, strip);
-    strip.on[joint].strand = strand;
-  }
+  const bool image = strip.on[first].strand != strand;
+  for (const int joint : {other, link}) unite_marks(joint, strip);
+  strip.on[other].strand = image ? -strand : strand;
   for (const int gap : {std::max(link, other), std::min(link, other)}) strip.collapse(gap);
   measure_parts(strip);
   return strip.successor();
@@ -103,6 +119,7 @@ int new_strand(const Strip& strip) {
 std::optional<Successor> after_length_beside_strand(int link, const Strip& strip) {
   if (const auto met = touches_meet(link, strip)) return met;
   if (const auto passed = touches_pass(link, strip)) return passed;
+  if (const auto passed = strand_passes_lift_off(link, strip)) return passed;
   return strand_passes_edge(link, strip);
 }
 
@@ -168,24 +185,27 @@ double foot(const chain::Profile& profile, double s, double guess, bool mirrored
 
 namespace {
 
-/// A touch stays, and beside it the strands meet, too: where its curvature is lost and the next derivative of the distance is not.
+/// A touch stays, and beside it the strands meet, too: where its curvature is lost and the next derivative of the distance is not. The
+/// strands are apart between the two, or these are the ends of a line.
 std::vector<Successor> strands_meet_beside(int j, const Strip& strip, const chain::Profile& profile) {
-  const int other = partner(strip, j);
+  const int other = partner(strip, j), fresh = new_strand(strip);
   const bool mirrored = strip.on[j].strand != strip.on[other].strand;
   const double unit = profile.unit_length;
   std::vector<Successor> out;
-  for (const double length : {0.02, 0.01, 0.04, 0.005})
-    for (const double side : {1.0, -1.0}) {
-      const double s = strip.s[j] + side * length * unit;
-      const double met = foot(profile, s, strip.s[other], mirrored);
-      Strip next = strip;
-      add_pair(next, s, met, mirrored, false, {0, new_strand(strip)});
-      for (const auto& [one, two] : {std::pair(s, strip.s[j]), std::pair(met, strip.s[other])}) {
-        auto& part = next.parts[next.part_at(0.5 * (one + two))];
-        part.fresh = true;
+  for (const int line : {0, fresh})
+    for (const double length : {0.02, 0.01, 0.04, 0.005})
+      for (const double side : {1.0, -1.0}) {
+        const double s = strip.s[j] + side * length * unit;
+        const double met = foot(profile, s, strip.s[other], mirrored);
+        Strip next = strip;
+        if (line != 0) next.on[j].line = line, next.on[other].line = -line;
+        add_pair(next, s, met, mirrored, false, {.strand = fresh, .line = line});
+        for (const auto& [one, two] : {std::pair(s, strip.s[j]), std::pair(met, strip.s[other])}) {
+          auto& part = next.parts[next.part_at(0.5 * (one + two))];
+          part.fresh = true;
+        }
+        out.push_back(next.successor());
       }
-      out.push_back(next.successor());
-    }
   return out;
 }
 
@@ -197,9 +217,12 @@ std::vector<Successor> strands_split(const ContactEvent& event, const Strip& str
   const int old = strip.on[j].strand, fresh = new_strand(strip);
   std::vector<Successor> out;
   // Two touches, the strands apart between them, or the ends of a line. On obstacles two touches next to each other are that.
-  for (const int line : {0, fresh})
-    for (const double part : {0.05, 0.02, 0.1}) {
-      const double length = part * profile.unit_length;
+  std::vector<double> lengths{0.05, 0.02, 0.1};
+  for (double& length : lengths) length *= profile.unit_length;
+  if (const double opens = event.to - event.from; event.kind == ContactEvent::Kind::dip)
+    lengths.insert(lengths.begin(), std::min(opens, lengths.back()));
+  for (const int line : {event.presses ? fresh : 0, event.presses ? 0 : fresh})
+    for (const double length : lengths) {
       Strip split = strip;
       const auto widen = [&](int joint, int before, int after, int mark) {
         const bool on_line = split.is_line(joint - 1) && split.is_line(joint);

@@ -85,7 +85,7 @@ int Strip::plate_beside(int i) const {
 
 void Strip::cut(int i, double at, chain::Seat contact) {
   if (parts[i].kind == Stretch::line) {
-    contact.obstacle = on[i].obstacle;
+    contact.obstacle = on[i].obstacle, contact.flat = on[i].flat;
     return split(i, at, Stretch::line, Stretch::line, contact);
   }
   if (const int plate = plate_beside(i); contact.strand != 0 && plate >= 0)

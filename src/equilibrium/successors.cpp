@@ -106,10 +106,10 @@ bool symmetric(const Topology& topology, const std::vector<double>& s) {
 /// Is it its own mirror image?
 bool is_symmetric(const Successor& next) { return symmetric(next.topology, next.s); }
 
-/// Does a strand press on a line that lies on cylinder and plate at once? No joint is that yet.
-bool presses_on_flat_line(const Topology& topology) {
+/// Does a strand press where a line leaves the plate? No joint is that.
+bool presses_where_line_lifts_off(const Topology& topology) {
   for (int j = 1; j < static_cast<int>(topology.on.size()); ++j)
-    if (topology.on[j].strand != 0 && (topology.lies_flat(j - 1) || topology.lies_flat(j))) return true;
+    if (topology.on[j].strand != 0 && topology.lies_flat(j - 1) != topology.lies_flat(j)) return true;
   return false;
 }
 
@@ -132,7 +132,7 @@ std::vector<Successor> successors(const ContactEvent& event, const Profile& prof
     measure_parts(strip);
     next.topology = strip.successor().topology;
   }
-  std::erase_if(out, [](const Successor& next) { return presses_on_flat_line(next.topology); });
+  std::erase_if(out, [](const Successor& next) { return presses_where_line_lifts_off(next.topology); });
   return out;
 }
 

@@ -27,7 +27,7 @@ void choose_tails(std::vector<ArcMesh>& meshes, const Topology& topology, const 
   constexpr int gap_elements = 8;
   const std::vector<Stretch>& kinds = topology.stretches;
   const bool admitted = !rod.holds_an_end() && !rod.strut && !rod.infinite && rod.isotropic_straight() &&
-                        !rod.stretches() &&
+                        !rod.stretches() && !rod.guided &&
                         rod.travel == chain::Travel::none;  // a formula knows no change of its pull
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     const bool leftward = i == 0 && !topology.half, tail = kinds[i] == Stretch::tail;

@@ -125,6 +125,18 @@ ordered_json stability_json(const Solution& solution) {
   return json;
 }
 
+/// What the sliders hold the ends with: the force on the rod at each, outward from the axis across its line, and along e_z.
+ordered_json sliders_json(const Solution& solution) {
+  const auto held = [&](const ArcRecord& arc, bool at_end) {
+    const double side = at_end ? 1.0 : -1.0, half = 0.5 * solution.phi;
+    const Eigen::Vector3d outward(side * std::sin(half), -std::cos(half), 0.0),
+        force = side * arc.n.col(at_end ? arc.n.cols() - 1 : 0);
+    return ordered_json{{"across", finite_or_null(force.dot(outward))},
+                        {"axial", finite_or_null(force.z() + 0.0)}};
+  };
+  return {{"left", held(solution.arcs.front(), false)}, {"right", held(solution.arcs.back(), true)}};
+}
+
 ordered_json parameters_json(const Solution& solution, const scene::Scene& scene) {
   if (solution.has_cylinder)
     return {{"T", finite_or_null(solution.T)}, {"phi", finite_or_null(solution.phi)}};
@@ -215,6 +227,7 @@ ordered_json to_json(const Solution& solution, const scene::Scene& scene) {
   if (solution.dragged)
     json["travel"] = {{"rate", finite_or_null(solution.travel_rate)},
                       {"pull_difference", finite_or_null(solution.pull_difference)}};
+  if (scene.ends.guided()) json["sliders"] = sliders_json(solution);
   json["stability"] = stability_json(solution);
   json["invariants"] = {{"hamiltonian_drift", finite_or_null(solution.invariants.hamiltonian_drift)},
                         {"axial_torque_drift", finite_or_null(solution.invariants.axial_torque_drift)},

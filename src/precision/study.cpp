@@ -198,6 +198,9 @@ std::optional<double> reference_transition(const Reference& reference) {
 
 Study study(const scene::Scene& scene, const StudyOptions& options) {
   if (!scene.has_cylinder) throw InputError(scene.name + ": precision needs a scene with a cylinder");
+  if (scene.ends.guided())
+    throw InputError(scene.name +
+                     ": ends.guide: precision needs \"none\": its other methods know dead pulls only");
   Reference reference = make_reference(scene);
   const bool line = rod::capstan::line_contact(scene.load.tension, scene.load.angle);
   if (reference.flat && scene.load.angle > M_PI && line)

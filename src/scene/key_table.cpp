@@ -73,6 +73,7 @@ Key end_of_rod(std::string_view name, std::string_view help) {
 
 constexpr std::string_view sliding_words[] = {"none", "up"};
 constexpr std::string_view travel_words[] = {"free", "blocked"};
+constexpr std::string_view guide_words[] = {"none", "slider"};
 constexpr std::string_view side_words[] = {"above", "below"};
 constexpr std::string_view knot_words[] = {"none", "clove_hitch"};
 constexpr std::string_view model_words[] = {"auto", "closed_form", "planar", "kirchhoff"};
@@ -239,6 +240,34 @@ std::vector<Key> stretch_keys() {
           weight_key<2>("rod.weight_z", "the same along e_z")};
 }
 
+/// Ends on sliders. What a scene without them does not say is not written into it.
+std::vector<Key> guide_keys() {
+  Key guide{.name = "ends.guide",
+            .kind = ValueKind::text,
+            .range = any,
+            .choices = {std::begin(guide_words), std::end(guide_words)},
+            .help = "slider: with a cylinder each end moves along a line parallel to its pull only",
+            .get_text = [](const Scene& scene) -> std::string {
+              return scene.ends.guided() ? std::string(guide_words[1]) : "";
+            },
+            .set_text =
+                [](Scene& scene, const std::string& word) {
+                  scene.ends.guide = word == guide_words[1] ? Guide::slider : Guide::none;
+                }};
+  Key offset{
+      .name = "ends.guide_offset",
+      .dimension = Dimension::length,
+      .range = positive,
+      .choices = {},
+      .help = "distance of the sliders' lines from the cylinder's axis; default: rod plus cylinder radius",
+      .get = [](const Scene& scene) -> std::optional<double> {
+        return scene.ends.guided() ? std::optional(scene.ends.guide_offset) : std::nullopt;
+      },
+      .set = [](Scene& scene, double value) { scene.ends.guide_offset = value; },
+      .is_parameter = true};
+  return {guide, offset};
+}
+
 std::vector<Key> load_keys() {
   Key friction{.name = "cylinder.friction",
                .range = not_negative,
@@ -380,8 +409,8 @@ std::vector<Key> method_keys() {
 std::span<const Key> keys() {
   static const std::vector<Key> table = [] {
     std::vector<Key> all;
-    for (auto&& part : {top_level_keys(), rod_keys(), stretch_keys(), load_keys(), plate_keys(), knot_keys(),
-                        method_keys()})
+    for (auto&& part : {top_level_keys(), rod_keys(), stretch_keys(), load_keys(), guide_keys(), plate_keys(),
+                        knot_keys(), method_keys()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();

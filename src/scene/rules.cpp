@@ -157,7 +157,6 @@ void check_sliding(const Document& document, const Scene& scene) {
     if (scene.plate->outer_radius < 1.0)
       refuse("plate.outer_radius", "must be >= 1: a smaller plate does not reach the rod on the cylinder");
     if (scene.rod.infinite()) refuse("rod.length", "must be finite with a plate");
-    if (scene.knot.tied()) refuse("plate.height", "must not be given with a knot: not built yet");
     if (scene.model.symmetry == Symmetry::half_turn)
       refuse("model.symmetry", "must not be \"half_turn\": a plate is not its own image under the half-turn");
   }
@@ -174,6 +173,9 @@ void check_sliding(const Document& document, const Scene& scene) {
              "rod.self_contact = false leaves that out");
     if (scene.model.kind == ModelKind::planar)
       refuse("model.symmetry", "must not be \"mirror\" with model.kind = \"planar\"");
+    if (scene.ends.guided() || scene.rod.extensible || scene.knot.tied())
+      refuse("model.symmetry",
+             "must not be \"mirror\" with ends.guide, rod.extensible or a knot: not built yet");
   }
   if (!scene.slides()) return;
   if (!(scene.friction.value_or(0.0) > 0.0))
@@ -197,7 +199,8 @@ void check_sliding(const Document& document, const Scene& scene) {
 void check_continuation(const Document& document, const Scene& scene, bool restart) {
   const Continuation& c = *scene.continuation;
   const bool of_capstan = c.parameter == "load.tension" || c.parameter == "load.angle";
-  const bool of_strut = c.parameter == "load.thrust" || c.parameter.starts_with("ends.");
+  const bool of_strut = c.parameter == "load.thrust" ||
+                        (c.parameter.starts_with("ends.") && c.parameter != "ends.guide_offset");
   if (scene.has_cylinder ? of_strut : of_capstan)
     throw SceneError(fmt::format(
         "{}: continuation.parameter = \"{}\": must be a key that a scene {} [cylinder] has",
@@ -239,6 +242,7 @@ void check_rules(const Document& document, const Scene& scene, bool restart) {
   check_stretch(document, scene);
   check_weight(document, scene);
   check_sliding(document, scene);
+  check_guides(document, scene);
   if (scene.continuation) check_continuation(document, scene, restart);
   for (const char c : {'/', '\0'})
     if (scene.name.find(c) != std::string::npos || scene.name.empty() || scene.name.front() == '.')

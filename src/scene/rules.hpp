@@ -21,6 +21,9 @@ bool starts_in(const Scene& scene, const std::string& key);
 void check_stretch(const Document& document, const Scene& scene);
 void check_weight(const Document& document, const Scene& scene);
 
+/// Rules of ends on sliders, likewise.
+void check_guides(const Document& document, const Scene& scene);
+
 /// @param restart  a branch begins at a stored point, wherever continuation.from is
 /// @throws SceneError for the first rule that does not hold
 void check_rules(const Document& document, const Scene& scene, bool restart);

@@ -33,9 +33,6 @@ void check_stretch(const Document& document, const Scene& scene) {
     forbid(document, "model.kind",
            "must not be \"closed_form\" with rod.extensible = true: closed forms are those of rods that do "
            "not stretch");
-  if (scene.slides())
-    forbid(document, "rod.extensible",
-           "must be false with cylinder.sliding = \"up\": rods that stretch are not dragged yet");
 }
 
 void check_weight(const Document& document, const Scene& scene) {

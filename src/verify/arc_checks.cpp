@@ -266,9 +266,12 @@ double check_arcs(const Solution& solution, const scene::Scene& scene, const Sca
     any_line = any_line || arc.kind == ArcKind::line;
     for (Eigen::Index i = 0; i < arc.s.size(); ++i) norm.add(std::abs(arc.q.col(i).norm() - 1.0));
     const Shape* below = arc.kind == ArcKind::line ? shape_of(shapes, arc.obstacle) : nullptr;
-    // A line on nothing; or with the moment of the friction along it, which this integration has not.
-    if (arc.kind == ArcKind::line && (!below || below->has_couple())) found.off_surface.add(NAN);
-    const Shape pressed = !below ? none : on_plate(arc, scene) ? below->beside_plate() : *below;
+    const bool flat = below && on_plate(arc, scene);
+    // A line on nothing; or with what this integration has not: a moment of the friction along it, or a stretch by it.
+    const bool stretched =
+        below && law.stretches() && below->drags() && !(flat && std::abs(solution.travel_rate) < tight);
+    if (arc.kind == ArcKind::line && (!below || below->has_couple() || stretched)) found.off_surface.add(NAN);
+    const Shape pressed = !below ? none : flat ? below->beside_plate() : *below;
     integrate(arc, {law, shapes, pressed}, scales, found);
   }
   list.at_most("unit_quaternions", norm.value(), tight, "largest | |q| - 1 |");

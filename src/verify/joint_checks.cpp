@@ -59,11 +59,17 @@ double judged_between(const Solution& solution, std::size_t k, const Scales& sca
              : force / scales.force;
 }
 
+/// Is an arc a line on the cylinder that lies in the plate, too?
+bool lines_on_plate(const ArcRecord& arc, const scene::Scene& scene) {
+  return arc.kind == ArcKind::line && on_plate(arc, scene);
+}
+
 }  // namespace
 
 void check_joints(const Solution& solution, const scene::Scene& scene, const Scales& scales,
                   CheckList& list) {
   const std::vector<Shape> shapes = shapes_of(scene, solution.travel_rate);
+  const Stiffness law(scene.rod);
   Largest position, frame, moment, force, surface, tangency, holding, apart, along;
   Smallest contact, between;
   for (std::size_t k = 0; k < solution.joints.size(); ++k) {
@@ -90,11 +96,12 @@ void check_joints(const Solution& solution, const scene::Scene& scene, const Sca
           shape ? shape->outward(after.r, tangent(after)) : Vector3d(Vector3d::Constant(NAN));
       if (shape) {
         const ArcRecord &left = solution.arcs[k - 1], &right = solution.arcs[k];
-        const bool flat[] = {on_plate(left, scene), on_plate(right, scene)};
-        const bool held = (flat[0] && left.kind == equilibrium::ArcKind::line) ||
-                          (flat[1] && right.kind == equilibrium::ArcKind::line) || (flat[0] && flat[1]);
-        jump += joint.force * (held ? shape->beside_plate() : *shape).push(after.r, tangent(after));
-        turn += joint.force * shape->couple(after.r, tangent(after));
+        const bool held = lines_on_plate(left, scene) || lines_on_plate(right, scene) ||
+                          (on_plate(left, scene) && on_plate(right, scene));
+        // Friction along a rod that stretches changes the stretch: at a point it slips with the mean of the two.
+        const Vector3d slope = 0.5 * (law.stretch(before) + law.stretch(after)) * tangent(after);
+        jump += joint.force * (held ? shape->beside_plate() : *shape).push(after.r, slope);
+        turn += joint.force * shape->couple(after.r, slope);
       }
       surface.add(shape ? std::abs(shape->gap(after.r)) : NAN);
       tangency.add(std::abs(outward.dot(tangent(after))));
@@ -102,7 +109,14 @@ void check_joints(const Solution& solution, const scene::Scene& scene, const Sca
     if (joint.partner >= 0) {
       const Vector3d e = equilibrium::strand_direction(solution, joint);
       const JointRecord& other = solution.joints[static_cast<std::size_t>(joint.partner)];
-      jump += joint.strand_force * e;
+      Vector3d push = joint.strand_force * e;
+      const ArcRecord &left = solution.arcs[k - 1], &right = solution.arcs[k];
+      if (joint.obstacle == 0 && on_plate(left, scene) && on_plate(right, scene) &&
+          (lines_on_plate(left, scene) || lines_on_plate(right, scene))) {  // it takes what is towards it
+        const double side = scene.plate->side == scene::PlateSide::above ? 1.0 : -1.0;
+        push.z() = side * std::min(side * push.z(), 0.0);
+      }
+      jump += push;
       apart.add(std::abs((joint.r - other.r).norm() - 2.0 * scene.rod_radius));
       apart.add(std::abs(joint.strand_force - other.strand_force) / scales.force);
       along.add(std::abs(e.dot(tangent(after))) * distance_that_counts(solution, k));
@@ -166,10 +180,23 @@ double jointed_moment(const End& end) {
 }
 double spin_error(const End& end) { return std::abs(rotation(end.section.q)(2, 0)); }
 
-void check_capstan_ends(const End (&ends)[2], const Scales& scales, CheckList& list) {
-  Largest pull, moment, clamp, spin;
+/// Distance of an end from the line that its slider moves along: parallel to the pull, at that distance from the axis on the side
+/// where a coil leaves, and at the plate's height.
+double guide_error(const End& end, const scene::Scene& scene) {
+  const Vector3d along = end.pull.normalized(), outward = end.side * along.cross(Vector3d::UnitZ());
+  const double height = scene.plate ? scene.plate->height : 0.0;
+  return std::max(std::abs(end.section.r.dot(outward) - scene.ends.guide_offset),
+                  std::abs(end.section.r.z() - height));
+}
+
+void check_capstan_ends(const End (&ends)[2], const scene::Scene& scene, const Scales& scales,
+                        CheckList& list) {
+  Largest pull, moment, clamp, spin, guide;
   for (const End& end : ends) {
-    pull.add((end.side * end.section.n - end.pull).norm() / scales.force);
+    const Vector3d off = end.side * end.section.n - end.pull;
+    // A slider takes what is across its line.
+    pull.add((scene.ends.guided() ? std::abs(off.dot(end.pull.normalized())) : off.norm()) / scales.force);
+    if (scene.ends.guided()) guide.add(guide_error(end, scene));
     if (end.joint.kind == JointKind::infinity) continue;
     if (end.kind == scene::EndKind::clamped) {
       clamp.add(clamp_error(end));
@@ -183,6 +210,8 @@ void check_capstan_ends(const End (&ends)[2], const Scales& scales, CheckList& l
   list.at_most("end_pull", pull.value(), tight, "internal force at the ends against the pulls, / max(1, T)");
   if (moment.any())
     list.at_most("end_moment", moment.value(), tight, "moment that the ends are free of, / max(1, sqrt(T))");
+  if (guide.any())
+    list.at_most("end_guide", guide.value(), tight, "distance of ends on sliders from their lines");
   if (spin.any()) list.at_most("end_spin", spin.value(), tight, "d1 of ends that cannot spin, along e_z");
   if (clamp.any())
     list.at_most("end_clamp", clamp.value(), tight, "frame of clamped ends against the pull and the plane");
@@ -211,11 +240,20 @@ void check_ends(const Solution& solution, const scene::Scene& scene, const Scale
                        {solution.joints.back(), last_section(solution.arcs.back()),
                         (solution.T + difference) * right, 1.0, scene.ends.right_kind()}};
   if (solution.has_cylinder) {
-    check_capstan_ends(ends, scales, list);
+    check_capstan_ends(ends, scene, scales, list);
   } else {
     check_strut_ends(ends, scales, list);
   }
 }
+
+namespace {
+
+/// Of the forces on the two ends, along e_z: what sliders push with.
+double axial_push(const Solution& solution) {
+  return last_section(solution.arcs.back()).n.z() - first_section(solution.arcs.front()).n.z();
+}
+
+}  // namespace
 
 void check_totals(const Solution& solution, const scene::Scene& scene, const Scales& scales,
                   CheckList& list) {
@@ -258,9 +296,11 @@ void check_totals(const Solution& solution, const scene::Scene& scene, const Sca
                         std::abs(solution.phi - scene.load.angle)),
                tight, "stored T and phi against those of the scene, T / max(1, T)");
   if (solution.dragged)
-    list.at_most("axial_balance", std::abs(solution.F0.value_or(NAN) - solution.plate_force) / scales.force,
-                 tight,
-                 "reported F0, what the cylinder drags with, against what the plate carries, / max(1, T)");
+    list.at_most(
+        "axial_balance",
+        std::abs(solution.F0.value_or(NAN) - solution.plate_force + axial_push(solution)) / scales.force,
+        tight,
+        "reported F0, what the cylinder drags with, against what plate and sliders carry, / max(1, T)");
   if (any) {
     list.at_most("contact_angle", std::abs(0.5 * (last - first) - solution.phi_star), tight,
                  "reported phi_star against the outermost contacts");

@@ -182,7 +182,7 @@ void RodFlow::Memory::rates(const double* y, double s, double* rate) const {
   if (loaded()) rate[virial_at()] = (stretch - 1.0) * x.n.dot(t) - 2.0 * stiffness.weight.dot(x.r);
   if (!on_surface()) return;
   const double p = pressure(x);
-  put<3>(rate + 10, -p * shape.push(x.r, t) - stiffness.weight);
+  put<3>(rate + 10, -p * shape.push(x.r, stretch * t) - stiffness.weight);
   rate[13] = p;
 }
 

@@ -197,6 +197,21 @@ BOOST_AUTO_TEST_CASE(tails_that_press_on_a_line_of_the_middle_strand) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(an_edge_on_one_half_of_a_line_and_another_line_on_the_other) {
+  // R/r = 1: the line of a tail with its own image has the edge of the cylinder's contact on one half, and on the other the end of the tail's line with
+  // the middle strand. That end presses where the line has a touch (H was off by up to 9.6e-8), both lines share theirs, and
+  // the edge moves past none (arcs had their ends the wrong way round).
+  const TemporaryFolder folder;
+  std::vector<std::string> command =
+      tied("continue", 0.5, {"continuation.from=2.47", "continuation.to=2.49"});
+  command.insert(command.end(), {"--out", "run", "--quiet", "--no-eigenvalues"});
+  BOOST_TEST(run_program(command, folder.path()).status == 0);
+  const Outcome certificate = run_program({"verify", "run"}, folder.path());
+  BOOST_TEST(certificate.status == 0, certificate.out);
+  for (const auto& row : read_csv(folder.path() / "run" / "branches.csv").rows)
+    BOOST_TEST(row.at("index") == "0");
+}
+
 BOOST_AUTO_TEST_CASE(a_curve_of_ones_own) {
   // The clove hitch's own curve, from a file, is the clove hitch.
   const TemporaryFolder folder;

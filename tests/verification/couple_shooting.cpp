@@ -29,7 +29,11 @@ struct Oracle {
   std::vector<Touch> touches;
   int size() const { return 11 + 2 * static_cast<int>(touches.size()); }
 
-  /// t' = m×t/B, all of the section turns by u = (m − M t)/B + M t/C, m' = n×t.
+  double stretch(const Vector3d& n, const Vector3d& t) const {
+    return 1.0 + scene.rod.compliance() * n.dot(t);
+  }
+
+  /// t' = m×t/B, all of the section turns by u = (m − M t)/B + M t/C; r' = λ t, m' = λ n×t, λ = 1 + n·t/EA.
   Section along(Section at, double length) const {
     using State = std::array<double, 12>;
     const double b = scene.rod.bending_stiffness, c = scene.rod.twist_ratio * b;
@@ -38,10 +42,11 @@ struct Oracle {
       const Eigen::Map<const Vector3d> t(&x[3]), d1(&x[6]), m(&x[9]);
       const double twisting = m.dot(t);
       const Vector3d u = (m - twisting * t) / b + twisting / c * t;
-      Eigen::Map<Vector3d>{&rate[0]} = t;
+      const double along = stretch(n, t);
+      Eigen::Map<Vector3d>{&rate[0]} = along * t;
       Eigen::Map<Vector3d>{&rate[3]} = u.cross(t);
       Eigen::Map<Vector3d>{&rate[6]} = u.cross(d1);
-      Eigen::Map<Vector3d>{&rate[9]} = n.cross(t);
+      Eigen::Map<Vector3d>{&rate[9]} = along * n.cross(t);
     };
     State x;
     Eigen::Map<Vector3d>{&x[0]} = at.r;
@@ -59,12 +64,17 @@ struct Oracle {
     return touch.of_plate ? Vector3d(0.0, 0.0, -1.0) : Vector3d(r.x(), r.y(), 0.0).normalized();
   }
   /// Force on the rod, and the moment of what acts at its surface.
-  std::pair<Vector3d, Vector3d> push(const Touch& touch, double force, const Section& at,
-                                     double travel) const {
+  /// @param half_ahead  −½: `at` is the section before the touch, ½: behind it
+  std::pair<Vector3d, Vector3d> push(const Touch& touch, double force, const Section& at, double travel,
+                                     double half_ahead) const {
     const Vector3d out = normal(touch, at.r);
     if (touch.of_plate) return {force * out, Vector3d::Zero()};
-    const Vector3d d = (Vector3d::UnitZ() - travel * at.t).normalized();
-    const Vector3d whole = force * (out + *scene.friction * d);
+    // The rod slips with the mean of its stretch on the two sides, which friction along it tells apart.
+    Vector3d whole = Vector3d::Zero();
+    for (int k = 0; k < 20; ++k) {
+      const double speed = travel * stretch(at.n + half_ahead * whole, at.t);
+      whole = force * (out + *scene.friction * (Vector3d::UnitZ() - speed * at.t).normalized());
+    }
     return {whole, -scene.friction_arm() * out.cross(whole)};
   }
   double travel(const VectorXd& x) const { return scene.ends.travel == scene::Travel::free ? x(10) : 0.0; }
@@ -99,7 +109,7 @@ struct Oracle {
     const auto force = [&](std::size_t k) { return x(12 + 2 * static_cast<Eigen::Index>(k)); };
     double outermost = 0.0;
     for (std::size_t k = 0; k < touches.size(); ++k) {
-      const auto [f, moment] = push(touches[k], force(k), at, travel(x));
+      const auto [f, moment] = push(touches[k], force(k), at, travel(x), k == 0 ? 0.5 : -0.5);
       if (k == 0) {
         before.n += f, before.m += moment;
         end(along(before, -end_at - place(0)), (T - tau) * left, -1.0, out, row);

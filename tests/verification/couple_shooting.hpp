@@ -3,8 +3,9 @@
 #include "windlass/equilibrium/solution.hpp"
 #include "windlass/scene/scene.hpp"
 
-/// The oracle of dragged rods whose friction has a moment about the centre line: from the first touch to both clamped ends,
-/// by Runge-Kutta-Fehlberg 7(8) of the first-order equations, and Newton's method on all that is unknown.
+/// The oracle of dragged rods on touches, whose friction may have a moment about the centre line, and which may stretch: from the
+/// first touch to both clamped ends, by Runge-Kutta-Fehlberg 7(8) of the first-order equations, and Newton's method on all that
+/// is unknown.
 namespace windlass::test {
 
 struct Dragged {

@@ -68,6 +68,7 @@ class Chain {
     bool along = false;   ///< translation along e_x (both ends of a free rod under a dead thrust)
     bool spin = false;    ///< turn of every section about its tangent
     bool slide = false;
+    bool knot = false;  ///< the same of a knot round nothing, in variations alone: see knot_slide.cpp
     Travel travel = Travel::none;
     std::optional<double> phase;  ///< turn of the rod by α about e_x, with a spin of phase·α
   };
@@ -263,11 +264,13 @@ class Chain {
   struct Numbering {
     std::vector<Eigen::Index> coordinate, location, force, strand;  ///< −1 where absent
     Eigen::Index slide = -1, spin = -1, height = -1, phase = -1;
+    Eigen::Index together = -1;  ///< the place of all touches that move along the rod alike
     Eigen::Index size = 0, geometric = 0;
     int constraints = 0;  ///< multipliers and touch locations: one negative direction each
   };
 
-  Numbering number(Purpose purpose) const;
+  /// @param together  of variations: touches that stay where they are move along the rod, all alike
+  Numbering number(Purpose purpose, bool together = false) const;
   void couple();
   void keep_coordinates();
   /// Coordinates of a joint that vary.
@@ -279,11 +282,23 @@ class Chain {
   /// Motion of the phase gauge as an increment: dense block, then interiors.
   VectorXd phase_motion(Purpose purpose, const Numbering& numbering, const VectorXd& x,
                         const Loads& loads) const;
-  /// The loads with ω, where it is an unknown; valid until the next call.
-  const Loads& loaded(const VectorXd& x, const Loads& loads) const {
+  bool holds_knot(const Numbering& numbering) const { return gauges_.knot && numbering.slide >= 0; }
+  /// What the gauge of a knot holds, a linear form over dense block and interiors: one for a slide by a unit of length.
+  VectorXd slid_by(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads) const;
+  /// How much the rod is stretched where a cylinder slips along it at a joint, and its derivatives.
+  struct StretchAt {
+    double value = 1.0;  ///< λ = 1 + k n·t, n the mean of the forces on the two sides where it is free
+    contact::SmallVector by_w = {};  ///< tangent
+    contact::SmallVector by_n = {};  ///< with the force of either side, 3
+    std::vector<int> links = {};     ///< of the free sides
+  };
+  StretchAt stretch_at(const VectorXd& x, const Loads& loads, int joint) const;
+  /// The loads with the speed of the rod along itself at a joint, where ω is an unknown; valid until the next call.
+  const Loads& loaded(const VectorXd& x, const Loads& loads, int joint) const {
     if (travel() != Travel::free) return loads;
     with_travel_ = loads;
     with_travel_.travel = x(slide_at_ + 1);
+    if (loads.compliance != 0.0) with_travel_.travel *= stretch_at(x, loads, joint).value;
     return with_travel_;
   }
   /// n where a link ends.
@@ -303,6 +318,8 @@ class Chain {
   /// What the joint on one side of a link takes of a line's own normal force; see Joint::drag.
   std::optional<Joint::Drag> drag_at(const VectorXd& x, const Loads& loads, int link,
                                      contact::Side side) const;
+  /// The loads with the pull at an end, T ± τ where τ is an unknown.
+  Loads pulled(const VectorXd& x, const Loads& loads, int joint) const;
   /// Change of a given pull's n with τ; zero for other links.
   VectorXd force_by_travel(const Loads& loads, int link) const;
   /// Adds the change with τ or ω of what a joint takes from the arc on one side to the travel's column.
@@ -317,6 +334,7 @@ class Chain {
   void add_joint_terms(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads,
                        int link, const bvp::EndsVector& gradient, MatrixXd& dense) const;
   void add_locations(const VectorXd& x, const Loads& loads, MatrixXd& dense) const;
+  void add_pulled(const VectorXd& x, const Loads& loads, MatrixXd& dense) const;
   void add_gauges(const Numbering& numbering, Purpose purpose, const VectorXd& x, MatrixXd& dense) const;
   /// An unknown of a dense block that acts on an arc's interior.
   struct Coupled {

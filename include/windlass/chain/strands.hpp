@@ -25,6 +25,8 @@ class Strands {
 
   /// The other joint of a touch between strands; the joint itself where it touches its own image; −1: it touches no strand.
   int partner(int joint) const { return partner_[joint]; }
+  /// Does a joint touch the half-turn's image of its partner?
+  bool mirrored(int joint) const { return mirrored_[joint]; }
   const std::vector<StrandLine>& lines() const { return lines_; }
   /// Place among the lines of that which a joint is a touch of; −1: none.
   int line_of(int joint) const { return line_of_[joint]; }
@@ -33,7 +35,8 @@ class Strands {
   /// The touches before and after one that is inside a line, along its strand.
   std::array<int, 2> neighbours(int joint) const;
   /// Is it one that is laid at a fixed part of what is between two joints (chain/coupling.hpp)? On its other strand tangency locates
-  /// it. Of a line's two strands, or halves, that one is divided on which more joints of other contacts are.
+  /// it. Of a line's two strands, or halves, that one is divided on which more joints of other contacts are; of two halves with as many, that on
+  /// which more strands press.
   bool laid(int joint) const { return joint >= 0 && laid_[joint]; }
   /// Does its own condition find a joint, and not its part of what is between two others? In the middle of a line between a strand
   /// and its own image tangency does.
@@ -76,8 +79,8 @@ class Strands {
   void find_lines(const Topology& topology);
   void find_lines_on_obstacles(const Topology& topology, const std::vector<int>& touches);
   void find_laid();
-  /// Joints between two, but for those inside lines.
-  int others(int begin, int end) const;
+  /// Joints between two, but for those inside lines. @param touches  of strands alone
+  int others(int begin, int end, bool touches = false) const;
   void add(const Facing& facing);
   void face(const std::vector<int>& touches);
 

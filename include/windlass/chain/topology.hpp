@@ -103,10 +103,12 @@ enum class EndKind { moment_free, clamped, pinned, spin_held };
 struct RodKind {
   bool spatial = false;
   EndKind left = EndKind::moment_free, right = EndKind::moment_free;
-  bool infinite = false;         ///< closed-form tails
-  bool strut = false;            ///< no cylinder, the ends on e_x
-  bool under_thrust = false;     ///< strut: thrust given, else shortening
+  bool infinite = false;      ///< closed-form tails
+  bool strut = false;         ///< no cylinder, the ends on e_x
+  bool under_thrust = false;  ///< strut: thrust given, else shortening
+  bool knotted = false;       ///< strut: its ends are pulled, and long tails leave its knot to slide along it
   Travel travel = Travel::none;  ///< of a rod on a cylinder that slips along it
+  bool guided = false;           ///< the ends of a rod on a cylinder are on sliders
   double pull_angle =
       NAN;  ///< between the pulls, for a rod that they leave free to turn [rad]; NaN: it varies
   double bending_stiffness = 1.0;  ///< B, of bending in the plane that the flat rod lies in

@@ -100,6 +100,7 @@ class Variation {
   double size_of(const VectorXd& values) const;
   void expand(const VectorXd& y, VectorXd& v) const;
   void hold_phase(Chain::Purpose purpose, const Chain::Numbering& numbering, MatrixXd& dense);
+  void hold_slide(Chain::Purpose purpose, const Chain::Numbering& numbering, MatrixXd& dense);
   void add_borders(MatrixXd& dense);
   /// Values of v at a place's local unknowns.
   VectorXd gathered(const Place& place, const VectorXd& v) const;
@@ -107,7 +108,7 @@ class Variation {
   const Linearisation& at_;
   std::vector<Place> places_;
   std::vector<Eigen::Index> dense_;  ///< places in v of the unknowns of the dense block
-  Eigen::Index size_ = 0, points_ = 0, phase_ = -1;
+  Eigen::Index size_ = 0, points_ = 0, phase_ = -1, slide_ = -1;
   Eigen::Index unknowns_ = 0;  ///< of the dense block, with those that v lacks (bvp::Held)
   int negative_ = 0;
   bool neutral_ = false;
@@ -117,7 +118,7 @@ class Variation {
   MatrixXd condensed_;                   ///< dense block, before anything is held in it
   int condensed_negative_ = 0;           ///< negative eigenvalues that it adds to
   std::vector<Eigen::Triplet<double>> joints_;  ///< terms of the dense block that no arc makes
-  VectorXd motion_;                             ///< the phase's row over v
+  VectorXd motion_, slid_by_;                   ///< rows over v of the phase and of a knot's slide
   std::shared_ptr<const class SymmetricFactors> factors_;
 };
 

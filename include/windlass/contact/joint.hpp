@@ -39,6 +39,7 @@ struct Loads {
   double compliance = 0.0;   ///< 1/EA of a rod that stretches [ρ²/EI]
   double weight_x = 0.0, weight_y = 0.0, weight_z = 0.0;  ///< known force per length [EI/ρ³]
   Eigen::Vector3d weight() const { return {weight_x, weight_y, weight_z}; }
+  double guide_offset = 1.0, guide_height = 0.0;  ///< of the lines that ends on sliders move along [ρ]
   bool weighs() const { return weight_x != 0.0 || weight_y != 0.0 || weight_z != 0.0; }
 };
 

@@ -69,6 +69,8 @@ class FlatEdge final : public VectorJoint {
   void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
                  SmallMatrix& out) const override;
   Location location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const override;
+  std::optional<Stretching> stretching(const double* w, const SmallVector& n,
+                                       double compliance) const override;
   void adopt(const Place& place, double* w) const override;
   const obstacle::Surface* surface() const override { return edge_.surface(); }
   Eigen::Vector2d on_surface(const double* w) const override { return {w[0], height_}; }
@@ -142,6 +144,33 @@ class FlatStrand final : public VectorJoint {
  private:
   Edge free_;  ///< its free side
   Pressed pressed_;
+};
+
+/// A place of a line on cylinder and plate where another strand presses on it: w = (u₀, χ), 2 degrees of freedom, arclength unknown.
+/// Equations 3 with tangency to the strand: force round the axis, moment along the rod, e·t = 0. What of the strand's force is
+/// normal to the cylinder goes straight to it and drags (drag_of_push), what is along the axis straight to the plate.
+class FlatPressed final : public VectorJoint {
+ public:
+  FlatPressed(SurfacePointer line, const SurfacePointer& plate);
+  JointKind kind() const override { return JointKind::touch; }
+  int tangent() const override { return 2; }
+  bool locates() const override { return true; }
+  int spin_coordinate() const override { return 1; }
+  int places() const override { return 1; }
+  Attachment attach(Side side, const double* w, const Loads& loads) const override;
+  std::optional<Drag> drag_of_push(const double* w, const Loads& loads,
+                                   const Eigen::Vector3d& force) const override;
+  Centreline centreline(const double* w) const override;
+  void place_curvature(const double* w, const Eigen::Vector3d& f, SmallMatrix& out) const override;
+  void adopt(const Place& place, double* w) const override;
+  const obstacle::Surface* surface() const override { return pressed_.surface(); }
+  Eigen::Vector2d on_surface(const double* w) const override { return {w[0], height_}; }
+
+ private:
+  Eigen::Vector4d on_line(const double* w) const { return {w[0], height_, 0.0, w[1]}; }
+  SurfacePointer line_;
+  Pressed pressed_;
+  double height_;
 };
 
 /// Where a line on cylinder and plate leaves the plate and goes on along the cylinder: w = (u₀, χ), 2 degrees of freedom,

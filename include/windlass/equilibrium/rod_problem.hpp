@@ -116,8 +116,10 @@ class RodProblem final : public continuation::Problem {
   const std::vector<chain::ArcMesh>& meshes() const { return meshes_; }
   const std::vector<std::string>& keys() const { return keys_; }
   bool spatial() const { return spatial_; }
-  /// Are its equations built for these contacts, with the moment of the friction if the scene asks for it?
-  bool admits(const Topology& topology) const;
+  /// Are its equations built for these contacts, with the moment of the friction and the stretch that the scene asks for?
+  bool admits(const Topology& topology) const { return !missing_on(topology); }
+  /// The key of what is not built for these contacts; null: nothing.
+  const char* missing_on(const Topology& topology) const;
   /// Does the cylinder slip along the rod? Its force then has no potential, and no index counts anything.
   bool dragged() const { return chain_->dragged(); }
   double last_error() const { return last_error_; }

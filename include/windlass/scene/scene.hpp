@@ -20,6 +20,7 @@ enum class Symmetry { automatic, half_turn, mirror, none };
 enum class Sliding { none, up };
 enum class Travel { free, blocked };
 enum class PlateSide { above, below };
+enum class Guide { none, slider };
 
 struct Rod {
   double bending_stiffness = 1.0;    ///< EI1 [EI]; the unit of stiffness, 1 in a dimensionless capstan
@@ -87,6 +88,10 @@ struct Ends {
   std::optional<double> shortening;  ///< strut only: end shortening / length [-]
   double twist = 0.0;                ///< strut only: relative end rotation about the axis [rad]
   Travel travel = Travel::free;      ///< while sliding: equal pulls, or no travel along itself
+  /// slider: round a cylinder each end moves along a line parallel to its pull, and nowhere else.
+  Guide guide = Guide::none;
+  double guide_offset = 1.0;  ///< distance of those lines from the axis [ρ]; 1: tangents to the coil
+  bool guided() const { return guide != Guide::none; }
 
   bool operator==(const Ends&) const = default;
 };

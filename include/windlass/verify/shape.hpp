@@ -26,7 +26,7 @@ class Shape {
   double gap(const Eigen::Vector3d& r) const;
   /// Normal part of the contact force on a rod with the tangent t, of size 1. Only a sharp edge asks for t: normal to it.
   Eigen::Vector3d outward(const Eigen::Vector3d& r, const Eigen::Vector3d& t) const;
-  /// Its whole contact force, N + mu d, on a rod with the tangent t.
+  /// Its whole contact force, N + mu d, on a rod with the tangent t, or where it stretches with the slope r' = λ t.
   Eigen::Vector3d push(const Eigen::Vector3d& r, const Eigen::Vector3d& t) const;
   /// The moment of push() about the centre line, per force: it acts `arm` below it.
   Eigen::Vector3d couple(const Eigen::Vector3d& r, const Eigen::Vector3d& t) const {
@@ -45,6 +45,7 @@ class Shape {
     return r.head<2>().norm() > outer_radius_ + located;
   }
   bool has_couple() const { return arm_ > 0.0; }
+  bool drags() const { return friction_ > 0.0; }
   /// Second derivative of the gap along a unit tangent t, but for the part that the curvature of the rod has.
   double bend(const Eigen::Vector3d& r, const Eigen::Vector3d& t) const;
   /// The outward normal of a wall, the same everywhere.

@@ -120,6 +120,36 @@ BOOST_AUTO_TEST_CASE(matrices_of_thick_rods_that_are_dragged_match_differences) 
     }
 }
 
+BOOST_AUTO_TEST_CASE(matrices_of_dragged_rods_that_stretch_and_of_ends_on_sliders_match_differences) {
+  // Flat on the plate; on touches, one of the plate; flat, with ends on sliders.
+  for (const int kind : {0, 1, 2})
+    for (const scene::Travel travel : {scene::Travel::blocked, scene::Travel::free}) {
+      scene::Scene scene;
+      scene.has_cylinder = true;
+      scene.load = {.tension = kind == 1 ? 0.3 : 2.0, .angle = 2.0 * M_PI, .thrust = {}};
+      scene.rod.length = 18.0;
+      scene.rod.extensible = true;
+      scene.rod.axial_stiffness = 10.0;
+      scene.friction = 0.32;
+      scene.motion = {scene::Sliding::up, false};
+      scene.plate.emplace();
+      scene.ends.travel = travel;
+      scene.ends.kind = scene::EndKind::clamped;
+      if (kind == 1) scene.model.kind = scene::ModelKind::kirchhoff;
+      if (kind == 2) scene.ends.guide = scene::Guide::slider;
+      scene.model.tolerance = 1e-6;
+      equilibrium::Started s = equilibrium::cold_start(scene, true, false, {"cylinder.friction"});
+      const contact::Loads loads = s.problem->loads(s.p);
+      const MatrixXd j = (4.0 * differences(s.problem->chain(), s.x, loads) -
+                          differences(s.problem->chain(), s.x, loads, 2e-5)) /
+                         3.0;
+      BOOST_TEST_CONTEXT(s.problem->topology().text()
+                         << ", travelled " << s.problem->chain().travelled(s.x)) {
+        BOOST_TEST((MatrixXd(s.problem->chain().jacobian(s.x, loads)) - j).norm() < 1e-7 * j.norm());
+      }
+    }
+}
+
 BOOST_AUTO_TEST_CASE(an_equilibrium_is_a_fixed_point) {
   for (const Case& c : cases) {
     equilibrium::Started s = state(c);

@@ -114,6 +114,17 @@ BOOST_AUTO_TEST_CASE(a_line_with_the_own_image_is_laid_on_the_half_with_other_jo
   BOOST_TEST(Strands(bare).between(2) == (std::array<int, 2>{1, 3}), boost::test_tools::per_element());
 }
 
+BOOST_AUTO_TEST_CASE(of_two_halves_with_as_many_joints_that_is_divided_which_a_strand_presses_on) {
+  // Joints 2 to 8 of a tail and its image, a contact with an obstacle (3) in the lower half, one with another strand (1 and 6) in the upper.
+  const Topology t = of(
+      {{0, 4}, {0, 1, 0.0, 7}, {}, {0, 2, 0.3, 7}, {0, 3, 0.5, 7}, {0, 4}, {0, -2, 0.6, 7}, {0, -1, 0.0, 7}});
+  const Strands s(t);
+  BOOST_REQUIRE(s.lines().size() == 1U);
+  BOOST_TEST(s.laid(7));
+  BOOST_TEST(!s.laid(4));
+  BOOST_TEST(s.between(7) == (std::array<int, 2>{6, 8}), boost::test_tools::per_element());
+}
+
 BOOST_AUTO_TEST_CASE(where_another_contact_presses_on_a_line_it_has_a_touch_there) {
   // A strand (1, 2, 3) on another (4, 5, 7); joint 6, at the place of 5, touches a third one (8).
   const Topology t = of({{0, 1, 0.0, 9},

@@ -144,7 +144,8 @@ void check_drag(const Joint& joint, Side side) {
 }
 
 /// What a strand's push on a line that slips drags: with it the push does no work on the way e_r + mu d either.
-void check_drag_of_push(const Joint& joint) {
+/// @param free  coordinates of the place that are unknown: both, or the one round the axis
+void check_drag_of_push(const Joint& joint, Eigen::Index free = 2) {
   const contact::Loads loads = some_loads();
   const VectorXd w = coordinates(joint);
   const Eigen::Vector3d push(0.7, -0.4, 0.9);
@@ -157,8 +158,8 @@ void check_drag_of_push(const Joint& joint) {
   const Eigen::Vector3d reaction = -push.dot(here.normal) * (here.normal + loads.friction * d);
   // Balance along the surface of push and reaction: rows of the coordinates of the place.
   const Eigen::Vector2d both = here.tangents.transpose() * (push + reaction);
-  const Eigen::Vector2d tested = (SmallVector(line.dr.transpose() * push) + at(w, push).value).head<2>();
-  BOOST_TEST((both - tested).norm() < 1e-14);
+  const SmallVector tested = SmallVector(line.dr.transpose() * push) + at(w, push).value;
+  BOOST_TEST((both.head(free) - tested.head(free)).norm() < 1e-14);
   for (int k = 0; k < joint.tangent(); ++k) {
     const SmallVector change =
         (at(moved(joint, w, k, h), push).value - at(moved(joint, w, k, -h), push).value) / (2.0 * h);
@@ -167,6 +168,27 @@ void check_drag_of_push(const Joint& joint) {
   for (int k = 0; k < 3; ++k) {
     const SmallVector change = at(w, push + Eigen::Vector3d::Unit(k)).value - at(w, push).value;  // linear
     BOOST_TEST((change - SmallVector(at(w, push).by_gradient.col(k))).norm() < 1e-14);
+  }
+}
+
+void check_stretching(const char* name, const Joint& joint) {
+  constexpr double compliance = 0.1;
+  const VectorXd w = coordinates(joint);
+  const SmallVector n = Eigen::Vector3d(1.7, -0.4, 0.3);
+  const auto value = [&](const VectorXd& at, const SmallVector& force) {
+    return joint.stretching(at.data(), force, compliance).value().value;
+  };
+  const Joint::Stretching here = joint.stretching(w.data(), n, compliance).value();
+  BOOST_TEST_CONTEXT(name) {
+    for (int k = 0; k < joint.tangent(); ++k) {
+      const double change = value(moved(joint, w, k, h), n) - value(moved(joint, w, k, -h), n);
+      BOOST_TEST(std::abs(change / (2.0 * h) - here.by_w(k)) < bound);
+    }
+    for (int k = 0; k < 3; ++k) {
+      SmallVector more = n;
+      more(k) += 1.0;  // linear in the force
+      BOOST_TEST(std::abs(value(w, more) - here.value - here.by_n(k)) < 1e-13);
+    }
   }
 }
 
@@ -208,6 +230,7 @@ BOOST_AUTO_TEST_CASE(joints_on_a_cylinder_that_slips) {
     check_slip("edge", edge, free, here.tangents * Eigen::Vector2d(std::cos(w[2]), std::sin(w[2])));
   }
   check_drag_of_push(Pressed(obstacle::unit_cylinder()));
+  check_drag_of_push(FlatPressed(obstacle::unit_cylinder(), plate()), 1);
   BOOST_TEST(!Pressed(wall()).drag_of_push(w.data(), some_loads(), Eigen::Vector3d::UnitX()).has_value());
 }
 
@@ -215,6 +238,7 @@ BOOST_AUTO_TEST_CASE(attachments_of_planar_joints) {
   using namespace contact::planar;
   check("touch", Touch(), {Side::left, Side::right});
   check("edge", Edge(Side::left, 1.2), {Side::left, Side::right});
+  check_stretching("edge", Edge(Side::left, 1.2));
   check("section of a line", SurfaceSection(), {Side::left, Side::right});
   check("section of a free arc", FreeSection(), {Side::left, Side::right});
   check("end", End(Side::left, false), {Side::left});
@@ -236,13 +260,21 @@ BOOST_AUTO_TEST_CASE(attachments_of_spatial_joints) {
   check("section on a plate", FlatSection(obstacle::unit_cylinder(), plate()), {Side::left, Side::right});
   check("touch on a plate", FlatTouch(obstacle::unit_cylinder(), plate()), {Side::left, Side::right});
   check("strand in a plate", FlatStrand(plate()), {Side::left, Side::right});
+  check("strand on a line in a plate", FlatPressed(obstacle::unit_cylinder(), plate()),
+        {Side::left, Side::right});
   for (const Side flat : {Side::left, Side::right}) {
     check("edge on a plate", FlatEdge(flat, 1.2, obstacle::unit_cylinder(), plate()),
           {Side::left, Side::right});
+    check_stretching("edge on a plate", FlatEdge(flat, 1.2, obstacle::unit_cylinder(), plate()));
     check("lift off a plate", LiftOff(flat, obstacle::unit_cylinder(), plate()), {Side::left, Side::right});
   }
   check("end", End(Side::left, false), {Side::left});
   check("end in a universal joint", HeldEnd(), {Side::left});
+  for (const Side side : {Side::left, Side::right}) {
+    check("end on a slider", GuidedEnd(side, std::make_unique<End>(side, false)), {side});
+    check("clamped end on a slider", GuidedEnd(side, std::make_unique<End>(side, true)), {side});
+    check("end in a universal joint on a slider", GuidedEnd(side, std::make_unique<HeldEnd>()), {side});
+  }
   for (const bool under_thrust : {false, true})
     for (const bool pinned : {false, true})
       check("end of a free rod", FreeRodEnd(Side::left, under_thrust, pinned), {Side::left});
