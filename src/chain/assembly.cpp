@@ -224,7 +224,7 @@ void Chain::add_stretching(const VectorXd& x, const Loads& loads, int joint, Mat
   const int link = side == Side::right ? joint : joint - 1;
   if (numbering_.force[link] >= 0)
     dense.block(row, numbering_.force[link], 1, stretched->by_n.size()) += stretched->by_n.transpose();
-  else if (gauges_.travel == Travel::blocked)
+  else if (travel() == Travel::blocked)
     dense(row, numbering_.slide) += stretched->by_n.dot(SmallVector(force_by_travel(loads, link)));
   if (side == Side::right || !loads.weighs()) return;
   const double by_length = -stretched->by_n.dot(SmallVector(weight_on(loads, link)));

@@ -46,7 +46,7 @@ VectorXd Chain::residual(const VectorXd& x, const Loads& loads) const {
 }
 
 Loads Chain::pulled(const VectorXd& x, const Loads& loads, int joint) const {
-  if (gauges_.travel != Travel::blocked) return loads;
+  if (travel() != Travel::blocked) return loads;
   Loads out = loads;
   out.tension += (joint == 0 ? -1.0 : 1.0) * travelled(x);
   return out;

@@ -173,6 +173,9 @@ void check_sliding(const Document& document, const Scene& scene) {
              "rod.self_contact = false leaves that out");
     if (scene.model.kind == ModelKind::planar)
       refuse("model.symmetry", "must not be \"mirror\" with model.kind = \"planar\"");
+    if (scene.ends.guided() || scene.rod.extensible || scene.knot.tied())
+      refuse("model.symmetry",
+             "must not be \"mirror\" with ends.guide, rod.extensible or a knot: not built yet");
   }
   if (!scene.slides()) return;
   if (!(scene.friction.value_or(0.0) > 0.0))
