@@ -89,6 +89,29 @@ Piece empty_piece(Stretch stretch, Eigen::Index count) {
   return piece;
 }
 
+/// The force between two strands as the jump of the force in one of them, which lies on no obstacle if either does not. Touches that
+/// share its place share the jump, too.
+double jump_of(const Chain& chain, const VectorXd& x, int coupling, const Profile& profile,
+               const std::vector<double>& s) {
+  const Coupling& c = chain.couplings()[coupling];
+  const bool of_second = chain.joint(c.first).surface() && !chain.joint(c.second).surface();
+  const int joint = of_second ? c.second : c.first;
+  int first = joint, last = joint;
+  while (chain.shares_place(first)) --first;
+  while (last + 1 < chain.joint_count() && chain.shares_place(last + 1)) ++last;
+  const auto beside = [&](int link) { return profile.at(0.5 * (s[link] + s[link + 1])).n; };
+  const Vector3d jump = beside(first - 1) - beside(last);
+  Eigen::Matrix3Xd pushes(3, 0);
+  Eigen::Index own = 0;
+  for (int j = first; j <= last; ++j) {
+    if (chain.coupling_of(j) < 0) continue;
+    if (j == joint) own = pushes.cols();
+    pushes.conservativeResize(Eigen::NoChange, pushes.cols() + 1);
+    pushes.rightCols<1>() = chain.crossing(x, chain.coupling_of(j)).push_on(j);
+  }
+  return pushes.cols() == 1 ? jump.dot(pushes.col(0)) : pushes.colPivHouseholderQr().solve(jump)(own);
+}
+
 }  // namespace
 
 VectorXd guess_state(const Chain& chain, const Topology& topology, const RodKind& rod, const Profile& profile,
@@ -119,13 +142,8 @@ VectorXd guess_state(const Chain& chain, const Topology& topology, const RodKind
     else if (arc.interior_nodes() > 0)
       adopt_interior(rod, nullptr, arc, profile, begin, length, no_twist, chain.interior(x, i));
   }
-  // The force between strands is the jump of the force in either.
-  for (std::size_t k = 0; k < chain.couplings().size(); ++k) {
-    const int joint = chain.couplings()[k].first;
-    const auto beside = [&](int link) { return profile.at(0.5 * (s[link] + s[link + 1])).n; };
-    const Vector3d jump = beside(joint - 1) - beside(joint);
-    chain.strand_force(x, static_cast<int>(k)) = jump.dot(chain.crossing(x, static_cast<int>(k)).direction);
-  }
+  for (std::size_t k = 0; k < chain.couplings().size(); ++k)
+    chain.strand_force(x, static_cast<int>(k)) = jump_of(chain, x, static_cast<int>(k), profile, s);
   return x;
 }
 

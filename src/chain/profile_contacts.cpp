@@ -83,6 +83,9 @@ Contact strand_contact(const Chain& chain, const Topology& topology, const rod::
   const double by_first = 1.0 / at.distance + at.direction.dot(first),
                by_second = 1.0 / at.distance - at.direction.dot(second),
                mixed = -at.first.t.dot(at.second.t) / at.distance;
+  const double own = j == with.first ? by_first : by_second, other = by_first + by_second - own;
+  c.gap_second = own - mixed * mixed / other;
+  c.place_ratio = -mixed / other;
   c.gap_curvature = 0.5 * (by_first + by_second) - std::hypot(0.5 * (by_first - by_second), mixed);
   return c;
 }

@@ -8,6 +8,7 @@
 #include "strand_line_events.hpp"
 #include "strand_successors.hpp"
 #include "strip.hpp"
+#include "touch_dip.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
 
 namespace windlass::equilibrium {
@@ -237,8 +238,9 @@ std::vector<Successor> after_skeleton(const ContactEvent& event, const Profile& 
   const Skeleton skeleton = skeleton_of(strip);
   ContactEvent here = event;
   const bool length = event.kind == Kind::length;
-  const bool alone = length && ((!laid(event.place) && !laid(event.place + 1)) || !follows(event.place) ||
-                                !follows(event.place + 1));
+  const bool alone =
+      length && !event.redrawn &&
+      ((!laid(event.place) && !laid(event.place + 1)) || !follows(event.place) || !follows(event.place + 1));
   if (alone || skeleton.strip.s.size() == strip.s.size()) {
     if (!length) return strands_split(event, strip, profile);
     std::vector<Successor> out = line_passes(event.place, false, profile, topology, strip);
@@ -252,6 +254,36 @@ std::vector<Successor> after_skeleton(const ContactEvent& event, const Profile& 
       length ? after_length(here.place, skeleton.strip) : strands_split(here, skeleton.strip, profile);
   for (Successor& next : out) next = with_touches(next, profile, topology);
   return out;
+}
+
+/// Two touches that a touch between them stands for (touch_dip.hpp): where their forces together are.
+std::vector<Successor> become_one(int link, const Profile& profile, const Topology& topology,
+                                  const Strip& strip) {
+  Skeleton skeleton = skeleton_of(strip);
+  const auto force = [&](int joint) {
+    const auto found = std::find_if(profile.contacts.begin(), profile.contacts.end(),
+                                    [&](const chain::Contact& c) { return c.joint == joint; });
+    return std::max(found->force, 0.0);
+  };
+  const double first = force(link), second = force(link + 1),
+               part = first + second > 0.0 ? second / (first + second) : 0.5;
+  std::vector<double>& s = skeleton.strip.s;
+  std::vector<double> places;
+  const auto meet = [&](int one, int two) {
+    const int a = skeleton.joint[one], b = skeleton.joint[two];
+    s[a] = s[b] = (1.0 - part) * s[a] + part * s[b];
+    places.push_back(s[a]);
+  };
+  meet(link, link + 1);
+  if (partner(strip, link) != link + 1) meet(partner(strip, link), partner(strip, link + 1));
+  const auto next = after_length_beside_strand(skeleton.joint[link], skeleton.strip);
+  if (!next) return {};
+  Successor out = with_touches(*next, profile, topology);
+  for (int j = 0; j < static_cast<int>(out.s.size()); ++j)
+    if (std::find(places.begin(), places.end(), out.s[j]) != places.end() &&
+        (out.held.empty() || out.s[out.held.back()] != out.s[j]))  // once, where touches share a place
+      out.held.push_back(j);
+  return {out};
 }
 
 /// The touches of lines laid anew, a line with the own image open about its middle where that is why.
@@ -309,6 +341,8 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
       if (const auto anew = laid_anew_at(profile, chain::Strands(topology), event.place);
           anew && event.redrawn)
         return laid_anew(*anew, profile, topology, strip);
+      if (event.redrawn && part_of_carried(profile, chain::Strands(topology), event.place))
+        return become_one(event.place, profile, topology, strip);
       if (const auto fewer = line_with_fewer_touches(profile, topology, event.place, strip)) return {*fewer};
       return after_skeleton(event, profile, topology, strip);
     case Kind::force:
@@ -325,6 +359,7 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
       }
       if (strip.on[event.place].strand != 0) return strands_part(event.place, strip);
       return after_force(event, strip, profile, topology);
+    case Kind::dip:
     case Kind::curvature:
       if (const auto line = line_with_next(event.place, profile, topology, strip)) return {*line};
       if (strip.on[event.place].strand != 0) {

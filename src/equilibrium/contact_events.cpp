@@ -7,6 +7,7 @@
 #include "dense_samples.hpp"
 #include "line_pressure.hpp"
 #include "strand_line_events.hpp"
+#include "touch_dip.hpp"
 #include "windlass/chain/self_distance.hpp"
 #include "windlass/rod/free_flow.hpp"
 #include "windlass/rod/quaternion.hpp"
@@ -196,10 +197,11 @@ bool beside_unpressed(const Profile& profile, int link) {
 /// Two touches with a short gap between them that have come from one: they meet where its length says so, before their
 /// curvature, which falls with the square of it, can.
 bool about_to_meet(const Profile& profile, const chain::Strands& strands, const Contact& touch) {
-  constexpr double short_gap = 0.02;
+  constexpr double short_gap = 0.02, close = 2.0;  // of what a touch carries
   const auto shorter = [&](int link) {
-    return link >= 0 && link < static_cast<int>(profile.pieces.size()) && !strands.welded(link) &&
-           length_of(profile.pieces[link]) < short_gap * profile.unit_length;
+    if (link < 0 || link >= static_cast<int>(profile.pieces.size()) || strands.welded(link)) return false;
+    if (const auto part = part_of_carried(profile, strands, link)) return *part < close;
+    return length_of(profile.pieces[link]) < short_gap * profile.unit_length;
   };
   return std::any_of(profile.contacts.begin(), profile.contacts.end(), [&](const Contact& c) {
     return c.coupling >= 0 && touch.coupling >= 0 &&
@@ -245,6 +247,12 @@ ContactEvent length_event(const Profile& profile, const Topology& topology, cons
                           : piece.stretch == Stretch::line ? least_under(profile, i)
                                                            : least_length;
   const double least = shortest * profile.unit_length;
+  if (const auto part = part_of_carried(profile, strands, i); part && !carried) {
+    constexpr double shorter = 0.6;
+    ContactEvent event{Kind::length, i, *part - shorter, piece.s(0)};
+    event.redrawn = true;
+    return event;
+  }
   ContactEvent event{Kind::length, i, carried.value_or(length_of(piece) - least), piece.s(0)};
   event.redrawn = carried.has_value();
   event.imminent = hardly_apart(profile, i);
@@ -267,6 +275,20 @@ double least_curvature_at(const Profile& profile, const Contact& c) {
   const Piece& beside =
       profile.pieces[c.joint < static_cast<int>(profile.pieces.size()) ? c.joint : c.joint - 1];
   return least_curvature * std::max(c.force, 0.0) / std::sqrt(beside.n.col(0).norm());
+}
+
+/// What the touch of the last event, its curvature, carries beside it.
+void add_dip(const Profile& profile, const chain::Strands& strands, const Contact& c, bool meets,
+             std::vector<ContactEvent>& events) {
+  ContactEvent event{Kind::dip, c.joint, 1.0, c.s};
+  event.redrawn = true;
+  if (const auto dip = meets ? std::nullopt : dip_beside_touch(profile, strands, c)) {
+    events.back().passes = true;
+    events.back().presses = event.presses = dip->presses;
+    event.value = 1.0 - dip->nearer / carried_between_strands;
+    event.from = c.s - 0.5 * dip->length, event.to = c.s + 0.5 * dip->length;
+  }
+  events.push_back(event);
 }
 
 /// Strands that come near each other. Those of a line of theirs count as one link: where it is nearest.
@@ -326,8 +348,8 @@ void heed_first_what_vanishes(std::vector<ContactEvent>& events, const Topology&
 }  // namespace
 
 std::string ContactEvent::name() const {
-  static const char* const words[] = {"pressure", "suction",  "length",   "force",    "curvature",
-                                      "graze",    "buckling", "approach", "reaction", "rim"};
+  static const char* const words[] = {"pressure", "suction",  "length",   "force", "curvature", "graze",
+                                      "buckling", "approach", "reaction", "rim",   "dip"};
   const std::string name =
       std::string(words[static_cast<int>(kind)]) + " " + std::to_string(named < 0 ? place : named);
   if (kind == Kind::approach)
@@ -374,8 +396,8 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
   const std::vector<chain::Coupling> couplings = topology.couplings();
   for (const Contact& c : profile.contacts) {
     if (c.coupling >= 0 && c.joint != couplings[c.coupling].first) continue;  // one event for the two joints
-    events.push_back({Kind::force, c.joint,
-                      c.force + (c.coupling < 0 ? 0.0 : carried_pull(profile, strands, c.joint)), c.s});
+    events.push_back(
+        {Kind::force, c.joint, c.force + (c.coupling < 0 ? 0.0 : carried_pull(profile, strands, c)), c.s});
     events.back().redrawn = strands.inside_line(c.joint);
     if (c.obstacle >= 0 && std::isfinite(profile.obstacles[c.obstacle].outer_radius()))
       events.push_back({Kind::rim, c.joint, inside_rim(profile.obstacles[c.obstacle], c.r), c.s});
@@ -384,7 +406,9 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
     // Of a line between strands g'' = 0.
     if (c.edge || strands.line_of(c.joint) >= 0 || before_flat_tail(profile, topology, c)) continue;
     const double bend = c.gap_curvature - least_curvature_at(profile, c);
-    events.push_back({Kind::curvature, c.joint, about_to_meet(profile, strands, c) ? 1.0 : bend, c.s});
+    const bool meets = about_to_meet(profile, strands, c);
+    events.push_back({Kind::curvature, c.joint, meets ? 1.0 : bend, c.s});
+    if (c.coupling >= 0) add_dip(profile, strands, c, meets, events);
   }
   const std::vector<ContactEvent> near = approach_events(profile, topology, strands);
   events.insert(events.end(), near.begin(), near.end());

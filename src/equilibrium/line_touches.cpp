@@ -109,9 +109,10 @@ struct PartEnds {
 
 /// Places between two, `begin` and `end` not among them.
 std::vector<double> laid_out(const Course& course, double begin, double end, const PartEnds& ends,
-                             double stiffness, double finer, double& needed) {
+                             const chain::Profile& profile, double finer, double& needed) {
   // A force that no touch takes up where it acts spreads over those beside it, the farther the more it tilts the strands.
   constexpr double quarter = 0.25, denser = 1.5, densest = 5.0;
+  const double stiffness = profile.material.bending_stiffness;
   const auto beside = [&](int end) {
     return !ends.presses[end] ? 0.0 : ends.touched[end] ? denser : densest;
   };
@@ -133,7 +134,9 @@ std::vector<double> laid_out(const Course& course, double begin, double end, con
   const bool divides = finer * sum.back() > enough;
   const double before = divides && !ends.touched[0] ? 0.5 : 0.0,
                behind = divides && !ends.touched[1] ? 0.5 : 0.0;
-  const int links = std::max(1, static_cast<int>(std::ceil(finer * sum.back() + before + behind)));
+  const double room = (end - begin) / (laid_apart * profile.unit_length);
+  const int links = static_cast<int>(
+      std::max(1.0, std::min(std::ceil(finer * sum.back() + before + behind), std::floor(room))));
   std::vector<double> out;
   int k = 0;
   for (int i = 1; i < links; ++i) {
@@ -291,8 +294,8 @@ class Layer {
         };
         const PartEnds ends{inner, {!inner[0] || closed(bounds.first), !inner[1] || closed(bounds.second)}};
         double links = 0.0;
-        const std::vector<double> own = laid_out(course_of(other), bounds.first, bounds.second, ends,
-                                                 profile_.material.bending_stiffness, finer_, links);
+        const std::vector<double> own =
+            laid_out(course_of(other), bounds.first, bounds.second, ends, profile_, finer_, links);
         if (&other == &line) needed += links;
         if (own.size() > most.size()) most = own;
       }

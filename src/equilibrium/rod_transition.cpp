@@ -291,7 +291,8 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
       continue;  // not where it came from
     if (!tried([&] { return found->problem->settle(found->x, found->p), true; })) continue;
     const auto here = std::static_pointer_cast<RodProblem>(clone());
-    if (event.kind == Kind::length && transition.precision < 0.0 && topology_.beside_strand(event.place))
+    if (event.kind == Kind::length && !event.redrawn && transition.precision < 0.0 &&
+        topology_.beside_strand(event.place))
       transition.located = located_vanishing({here, x, p}, event.place);
     else if (shrinks)
       transition.located = located_onset({here, x, p}, event.place, *found);

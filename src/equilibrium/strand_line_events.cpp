@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace windlass::equilibrium {
@@ -79,8 +80,10 @@ bool found_by_tangency(const chain::Strands& strands, int joint) {
 
 std::optional<LaidAnew> laid_anew_at(const Profile& profile, const chain::Strands& strands, int link) {
   const auto [begin, end] = strands.located_about(link, link + 1);
+  int parts = 0;
+  for (int i = begin; i < end; ++i) parts += !strands.welded(i);
   if (pressed_before_end(strands, begin, end) || pressed_before_end(strands, end, begin))
-    return LaidAnew{begin, end, press_at_end};
+    return LaidAnew{begin, end, std::max(press_at_end, parts * laid_too_near)};
   // An edge comes near the middle of a line, or a touch beyond it, whichever is nearer.
   std::optional<LaidAnew> out;
   const auto left = [&](const LaidAnew& to) {
@@ -96,7 +99,11 @@ std::optional<LaidAnew> laid_anew_at(const Profile& profile, const chain::Strand
     if (found_by_tangency(strands, at) && !strands.inside_line(other) &&
         strands.line_of(other) != strands.line_of(at))
       offer({link, link + 1, at_touch});
-  return out;
+  if (out) return out;
+  const int laid = strands.laid(link) ? link : strands.laid(link + 1) ? link + 1 : -1;
+  if (parts > 1 && laid >= 0 && !strands.lines()[strands.line_of(laid)].on_obstacles)
+    return LaidAnew{begin, end, parts * laid_too_near};
+  return std::nullopt;
 }
 
 std::optional<ContactEvent> laid_between(const Profile& profile, const chain::Strands& strands, int link) {
@@ -116,17 +123,57 @@ std::optional<ContactEvent> laid_between(const Profile& profile, const chain::St
   return event;
 }
 
-double carried_pull(const Profile& profile, const chain::Strands& strands, int joint) {
+namespace {
+
+/// Touches next to each other inside a line that pull together: how much, and over which width, between the places where the pressure
+/// that they stand for, linear between touches, is zero.
+struct Pull {
+  double force = 0.0, width = 0.0;
+};
+
+Pull pull_about(const Profile& profile, const chain::Strands& strands, const std::vector<int>& strand,
+                int joint) {
+  std::map<int, double> force;
+  for (const Contact& c : profile.contacts)
+    if (c.coupling >= 0) force[c.joint] = c.force;
+  const auto place = [&](std::size_t k) { return profile.pieces[strand[k]].s(0); };
+  const auto pressure = [&](std::size_t k) {  // an end's force stands for half a link
+    if (strands.inside_line(strand[k])) return force.at(strand[k]) / span_of(profile, strands, strand[k]);
+    const std::size_t beside = k == 0 ? 1 : k - 1;
+    return force.at(strand[k]) / (0.5 * std::abs(place(k) - place(beside)));
+  };
+  const auto at = static_cast<std::size_t>(std::find(strand.begin(), strand.end(), joint) - strand.begin());
+  std::size_t first = at, last = at;
+  while (first > 1 && force.at(strand[first - 1]) < 0.0) --first;
+  while (last + 2 < strand.size() && force.at(strand[last + 1]) < 0.0) ++last;
+  const auto zero = [&](std::size_t pulls, std::size_t beyond) {
+    const double p = pressure(pulls), q = std::max(pressure(beyond), 0.0);
+    return place(pulls) + (place(beyond) - place(pulls)) * p / (p - q);
+  };
+  Pull out;
+  for (std::size_t k = first; k <= last; ++k) out.force += force.at(strand[k]);
+  out.width = std::abs(zero(last, last + 1) - zero(first, first - 1));
+  return out;
+}
+
+}  // namespace
+
+double carried_pull(const Profile& profile, const chain::Strands& strands, const Contact& contact) {
+  const int joint = contact.joint;
   if (!strands.inside_line(joint)) return 0.0;
-  const double h = span_of(profile, strands, joint);
+  const double h = span_of(profile, strands, joint), stiffness = profile.material.bending_stiffness;
   const chain::StrandLine& line = strands.lines()[strands.line_of(joint)];
-  const bool first = std::find(line.first.begin(), line.first.end(), joint) != line.first.end();
-  const std::vector<int>& strand = first ? line.first : line.second;
+  const bool of_first = std::find(line.first.begin(), line.first.end(), joint) != line.first.end();
+  const std::vector<int>& strand = of_first ? line.first : line.second;
   const auto to = [&](int end) { return std::abs(profile.pieces[joint].s(0) - profile.pieces[end].s(0)); };
   const double away = std::min(to(strand.front()), to(strand.back())) / profile.unit_length,
                part = std::clamp((away - beside_end) / beside_end, 0.0, 1.0);
   const double opened = opened_at_end + part * (opened_between_strands - opened_at_end);
-  return 12.0 * opened * profile.material.bending_stiffness / (h * h * h);
+  const double alone = 12.0 * opened * stiffness / (h * h * h);
+  if (contact.force >= 0.0) return alone;
+  const Pull pull = pull_about(profile, strands, strand, joint);
+  const double together = 15.36 * opened * stiffness / std::pow(pull.width, 3);
+  return std::min(alone, together) + pull.force - contact.force;
 }
 
 }  // namespace windlass::equilibrium

@@ -19,6 +19,9 @@ double nearer_between_touches(const chain::Profile& profile, const chain::Topolo
 /// What is pressed on right before the end of a line has no touch there: the end itself takes it. From the second distance on it is laid
 /// without, at the first it is laid with one: F d²/3B of the rod's height over a span to the next touch is below what is carried [ρ].
 inline constexpr double press_apart = 6e-4, press_at_end = 4e-4;
+/// No more touches are laid between two joints than are as far apart as the first, and they are laid anew once nearer than the
+/// second: their forces answer to their places by 192B/h³ [ρ].
+inline constexpr double laid_apart = 3e-4, laid_too_near = 2e-4;
 /// The middle of a line between a strand and its own image, which an edge, or what else locates itself, comes near: between the edge's
 /// place and its image the pulls of both open the line, by more than it carries. It is laid from the first distance on; and touches
 /// beyond the middle that come near such a joint [ρ].
@@ -48,7 +51,10 @@ inline constexpr double opened_between_strands = 1e-8;
 inline constexpr double opened_at_end = 1e-9, beside_end = 0.1;
 
 /// Of a line between strands the touches inside may pull, as its pressure changes its sign, with what would open the strands by
-/// no more than they may be nearer elsewhere: a force F lifts both over the span h of its neighbours by Fh³/12B.
-double carried_pull(const chain::Profile& profile, const chain::Strands& strands, int joint);
+/// no more than they may be nearer elsewhere. A force F of one lifts both over the span h of its neighbours by Fh³/12B. What touches
+/// next to each other pull is one suction: F in all over a width w, of each a parabola's, lifts them by Fw³/15.4B over √5 w (as a gap
+/// inside a line on an obstacle, contact_events.hpp, with both giving way). @returns what is to be added to the contact's force
+double carried_pull(const chain::Profile& profile, const chain::Strands& strands,
+                    const chain::Contact& contact);
 
 }  // namespace windlass::equilibrium

@@ -75,10 +75,9 @@ std::optional<Successor> touches_meet(int link, Strip strip) {
   }
   if (std::abs(first - second) != 1) return std::nullopt;
   const int other = std::min(first, second), strand = strip.on[link].strand;
-  for (const int joint : {other, link}) {
-    unite_marks(joint, strip);
-    strip.on[joint].strand = strand;
-  }
+  const bool image = strip.on[first].strand != strand;
+  for (const int joint : {other, link}) unite_marks(joint, strip);
+  strip.on[other].strand = image ? -strand : strand;
   for (const int gap : {std::max(link, other), std::min(link, other)}) strip.collapse(gap);
   measure_parts(strip);
   return strip.successor();
@@ -197,9 +196,12 @@ std::vector<Successor> strands_split(const ContactEvent& event, const Strip& str
   const int old = strip.on[j].strand, fresh = new_strand(strip);
   std::vector<Successor> out;
   // Two touches, the strands apart between them, or the ends of a line. On obstacles two touches next to each other are that.
-  for (const int line : {0, fresh})
-    for (const double part : {0.05, 0.02, 0.1}) {
-      const double length = part * profile.unit_length;
+  std::vector<double> lengths{0.05, 0.02, 0.1};
+  for (double& length : lengths) length *= profile.unit_length;
+  if (const double opens = event.to - event.from; event.kind == ContactEvent::Kind::dip)
+    lengths.insert(lengths.begin(), std::min(opens, lengths.back()));
+  for (const int line : {event.presses ? fresh : 0, event.presses ? 0 : fresh})
+    for (const double length : lengths) {
       Strip split = strip;
       const auto widen = [&](int joint, int before, int after, int mark) {
         const bool on_line = split.is_line(joint - 1) && split.is_line(joint);

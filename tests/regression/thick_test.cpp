@@ -221,6 +221,24 @@ BOOST_AUTO_TEST_CASE(a_line_opens_behind_its_end) {
   }
 }
 
+// A touch whose curvature vanishes goes on as the same touch while it stands for the line that has come from it: the branch has no hole
+// behind the event, targets right beside it are met from both sides, and the event is the same both ways.
+BOOST_AUTO_TEST_CASE(a_touch_carries_the_line_that_comes_from_it) {
+  const std::vector<std::string> coil = {"ends.kind=clamped", "load.angle=3.7896 pi", "rod.length=32.765"};
+  const TemporaryFolder up, down;
+  const std::vector<double> rising = events(follow(up, two_turns, 0.5, 7.7, 8.0, coil)),
+                            falling = events(follow(down, two_turns, 0.5, 8.0, 7.7, coil));
+  BOOST_REQUIRE(rising.size() == 1u);
+  BOOST_REQUIRE(falling.size() == 1u);
+  BOOST_TEST(rising[0] == falling[0], boost::test_tools::tolerance(1e-8));
+  for (const double beyond : {1e-5, 1e-3, 1e-2, 2e-2}) {  // the line is redrawn 0.014 beyond
+    const TemporaryFolder folder;
+    const Table table = follow(folder, two_turns, 0.5, 7.7, rising[0] + beyond, coil);
+    BOOST_TEST(std::stod(table.rows.back().at("T")) == rising[0] + beyond,
+               boost::test_tools::tolerance(1e-6));
+  }
+}
+
 // Two touches 3e-5 apart hold nearly the same: one force between them costs nothing and moves nothing.
 BOOST_AUTO_TEST_CASE(spectra_of_touches_next_to_each_other) {
   const TemporaryFolder folder;

@@ -39,6 +39,8 @@ struct Contact {
   double force = 0.0;  ///< outward on the rod; >= 0 where the contact holds
   /// g'' at a touch, >= 0; of two strands the least curvature of their distance as either place moves.
   double gap_curvature = 0.0;
+  /// Of two strands: G″ of G(s) = min |r(s) − r₂(s₂)| over the other's place, and how fast that goes along with s.
+  double gap_second = 0.0, place_ratio = 0.0;
   /// Of a strand that lies on an obstacle where another presses on it: the obstacle's force, outward.
   std::optional<double> reaction;
 };

@@ -25,6 +25,8 @@ class Strands {
 
   /// The other joint of a touch between strands; the joint itself where it touches its own image; −1: it touches no strand.
   int partner(int joint) const { return partner_[joint]; }
+  /// Does a joint touch the half-turn's image of its partner?
+  bool mirrored(int joint) const { return mirrored_[joint]; }
   const std::vector<StrandLine>& lines() const { return lines_; }
   /// Place among the lines of that which a joint is a touch of; −1: none.
   int line_of(int joint) const { return line_of_[joint]; }

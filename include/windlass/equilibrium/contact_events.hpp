@@ -17,6 +17,7 @@
 /// line carries; of a tail less `shortest_tail` | a touch in its place; the line; nothing, the contact is at the rod's end |
 /// | force | point force at a touch or an edge | the touch is lost; an edge: what `length` says if its line is as short |
 /// | curvature | g'' at a touch, on a plane less `least_curvature` | the touch flattens into a line, or comes apart into two |
+/// | dip | 1 less how much nearer strands are beside a touch of theirs, over what it carries | two touches, a line between them or not |
 /// | graze | least gap inside a free arc, of each obstacle | a new touch |
 /// | approach | least distance of two strands less 2r, of every pair of links | a new touch of the two |
 /// | reaction | force of the obstacle under a strand that another presses on, and what the line carries of it | it lifts |
@@ -73,12 +74,25 @@ inline constexpr double carried_between_strands = 8e-10;
 inline constexpr double spare_between_strands = 1e-2;
 
 struct ContactEvent {
-  enum class Kind { pressure, suction, length, force, curvature, graze, buckling, approach, reaction, rim };
+  enum class Kind {
+    pressure,
+    suction,
+    length,
+    force,
+    curvature,
+    graze,
+    buckling,
+    approach,
+    reaction,
+    rim,
+    dip
+  };
   Kind kind = Kind::force;
   int place = 0;  ///< link (pressure, suction, length, graze, buckling) or joint (force, curvature)
   double value = 0.0;
   double s = 0.0;                    ///< where along the rod
-  double from = 0.0, to = 0.0;       ///< pressure, suction: the stretch of negative pressure
+  double from = 0.0, to = 0.0;       ///< pressure, suction: the stretch of negative pressure; dip: what opens
+  bool presses = false;              ///< curvature, dip: strands press on each other on that stretch
   int obstacle = 0;                  ///< graze: the one that the rod comes near
   int other = -1;                    ///< approach: the link that `place` comes near
   bool mirrored = false;             ///< approach: it is the half-turn's image of that
