@@ -173,7 +173,7 @@ Chain::Numbering Chain::number(Purpose purpose, bool together) const {
     ++n.constraints;
   };
   const bool spins = this->spins(purpose) && !equilibrium;
-  hold((gauges_.knot ? !equilibrium : gauges_.slide && in_contact_) && asymmetric, n.slide);
+  hold(gauges_.knot ? !equilibrium && asymmetric : gauges_.slide && in_contact_ && asymmetric, n.slide);
   hold(gauges_.spin && spins, n.spin);
   hold(gauges_.height && spins, n.height);
   hold(gauges_.phase && spins, n.phase);

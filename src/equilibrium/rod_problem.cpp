@@ -34,8 +34,8 @@ double Loads::*field_of(const std::string& key, const scene::Scene& scene) {
   if (key == "load.thrust") return &Loads::thrust;
   if (key == "ends.shortening") return &Loads::shortening;
   if (key == "ends.twist") return &Loads::twist;
-  if (key == "rod.radius" && has_rim(scene)) return nullptr;
   if (key == "ends.guide_offset") return &Loads::guide_offset;
+  if (key == "rod.radius" && has_rim(scene)) return nullptr;
   if (key == "rod.radius") return scene.friction_has_couple() ? &Loads::arm : &Loads::radius;
   if (key == "cylinder.friction") return &Loads::friction;
   if (key == "rod.axial_compliance") return &Loads::compliance;
@@ -119,9 +119,8 @@ const char* RodProblem::missing_on(const Topology& topology) const {
     return base_.*field != 0.0 || std::find(fields_.begin(), fields_.end(), field) != fields_.end();
   };
   const bool thickens = std::find(keys_.begin(), keys_.end(), "rod.radius") != keys_.end();
-  if ((asked(&Loads::arm) || (thickens && scene_.friction_has_couple())) &&
-      !(spatial_ && carries_couple(topology)))
-    return "cylinder.friction_couple";
+  const bool couple = asked(&Loads::arm) || (thickens && scene_.friction_has_couple());
+  if (couple && !(spatial_ && carries_couple(topology))) return "cylinder.friction_couple";
   if (rod_.travel != chain::Travel::none && asked(&Loads::compliance) &&
       !carries_stretch(topology, rod_.travel))
     return "rod.extensible";
