@@ -20,6 +20,10 @@ std::string couple_not_carried() {
          "cylinder or on the plate; false leaves the moment of the friction out";
 }
 
+std::string rim_not_thickened() {
+  return "plate.outer_radius: a rod that touches the plate's outer edge is not followed in rod.radius";
+}
+
 namespace {
 
 /// Followed by the radius from nothing, where friction has no moment.

@@ -14,6 +14,8 @@ bool carries_couple(const Topology& topology);
 
 /// What is said of a scene whose states would need it elsewhere.
 std::string couple_not_carried();
+/// What is said where a rod on a plate's outer edge would be followed in its radius, which the edge's is, too.
+std::string rim_not_thickened();
 
 /// Steady states of touches alone, followed from those without the moment by the radius at which friction acts.
 /// @param searched  for people: what was followed, and what was not

@@ -13,6 +13,7 @@
 #include "windlass/chain/singular_matrix.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/equilibrium/start.hpp"
+#include "windlass/obstacle/rim.hpp"
 #include "windlass/obstacle/scene_obstacles.hpp"
 #include "windlass/rod/quaternion.hpp"
 #include "windlass/scene/keys.hpp"
@@ -24,8 +25,13 @@ namespace {
 
 using contact::Loads;
 
-/// Does the plate end? Its edge is as round as the rod is thick (obstacle::Rim).
-bool has_rim(const scene::Scene& scene) { return scene.plate && std::isfinite(scene.plate->outer_radius); }
+/// Does the rod touch a plate's outer edge? It is as round as the rod is thick (obstacle::Rim), and built into joints.
+bool touches_rim(const chain::RodKind& rod, const Topology& topology) {
+  for (int j = 0; j < static_cast<int>(topology.on.size()); ++j)
+    if (topology.obstacle(j) > 0 && obstacle::as_rim(rod.obstacles.pointer(topology.obstacle(j))))
+      return true;
+  return false;
+}
 
 /// Parameters that change loads only; all others rebuild the arcs.
 double Loads::*field_of(const std::string& key, const scene::Scene& scene) {
@@ -35,7 +41,6 @@ double Loads::*field_of(const std::string& key, const scene::Scene& scene) {
   if (key == "ends.shortening") return &Loads::shortening;
   if (key == "ends.twist") return &Loads::twist;
   if (key == "ends.guide_offset") return &Loads::guide_offset;
-  if (key == "rod.radius" && has_rim(scene)) return nullptr;
   if (key == "rod.radius") return scene.friction_has_couple() ? &Loads::arm : &Loads::radius;
   if (key == "cylinder.friction") return &Loads::friction;
   if (key == "rod.axial_compliance") return &Loads::compliance;
@@ -121,6 +126,7 @@ const char* RodProblem::missing_on(const Topology& topology) const {
   const bool thickens = std::find(keys_.begin(), keys_.end(), "rod.radius") != keys_.end();
   const bool couple = asked(&Loads::arm) || (thickens && scene_.friction_has_couple());
   if (couple && !(spatial_ && carries_couple(topology))) return "cylinder.friction_couple";
+  if (thickens && touches_rim(rod_, topology)) return "plate.outer_radius";
   if (rod_.travel != chain::Travel::none && asked(&Loads::compliance) &&
       !carries_stretch(topology, rod_.travel))
     return "rod.extensible";
@@ -138,8 +144,9 @@ void RodProblem::rebuild() {
   if (varies("rod.weight_z")) rod_.weighs[2] = true;
   base_ = loads_of(scene_);
   if (const char* key = missing_on(topology_))
-    throw NoEquilibrium(key == std::string_view("rod.extensible") ? stretch_not_carried()
-                                                                  : couple_not_carried());
+    throw NoEquilibrium(key == std::string_view("rod.extensible")       ? stretch_not_carried()
+                        : key == std::string_view("plate.outer_radius") ? rim_not_thickened()
+                                                                        : couple_not_carried());
   chain_ = chain::build_chain(rod_, topology_, meshes_);
   chain_->let_slide(slides_);
   finer_.reset();
@@ -157,9 +164,9 @@ Loads RodProblem::loads(const Vector& p) {
     changed = true;
   }
   if (changed) {
-    // Lengths live in the loads; only stiffness and natural strains are built into the arcs, and a plate's edge into joints.
+    // Lengths live in the loads; only stiffness and natural strains are built into the arcs.
     const chain::RodKind rod = rod_of(scene_, spatial_);
-    const bool arcs = rod.stiffness != rod_.stiffness || rod.natural != rod_.natural || has_rim(scene_);
+    const bool arcs = rod.stiffness != rod_.stiffness || rod.natural != rod_.natural;
     base_ = loads_of(scene_);
     if (arcs) rebuild();
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "entry.hpp"
+#include "friction_couple.hpp"
 #include "opened_entry.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/equilibrium/opening.hpp"
@@ -272,6 +273,12 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
   std::string beyond;  // contacts that something in the scene is not built for
   for (const Successor& next : successors(event, shape, topology_, joint_places(x, p, shape))) {
     if (const char* key = missing_on(next.topology)) {
+      if (key == std::string_view("plate.outer_radius")) {  // null problem: the branch ends here
+        continuation::Transition end;
+        end.before = topology_.text();
+        end.after = next.topology.text() + " (" + rim_not_thickened() + ")";
+        return end;
+      }
       beyond =
           fmt::format("{} ({} is not built for {})", next.topology.text(), key,
                       key == std::string_view("rod.extensible") ? "lines that friction stretches" : "lines");
