@@ -162,6 +162,12 @@ void add_contacts(const Chain& chain, const Topology& topology, const VectorXd& 
     carry_turns(out.contacts, out.pieces);
 }
 
+const Contact* Profile::contact_at(int joint) const {
+  const auto found =
+      std::find_if(contacts.begin(), contacts.end(), [&](const Contact& c) { return c.joint == joint; });
+  return found == contacts.end() ? nullptr : &*found;
+}
+
 double total_contact_force(const Profile& profile, const Topology& topology) {
   double sum = 0.0;
   for (const Piece& piece : profile.pieces) sum += piece.force * (topology.half ? 2.0 : 1.0);

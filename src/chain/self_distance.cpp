@@ -19,11 +19,7 @@ std::vector<Touch> touches(const Profile& profile, const Topology& topology) {
   const auto add = [&](double a, double b, double reach) {
     out.push_back({{std::min(a, b), std::max(a, b)}, reach});
   };
-  const auto place = [&](int joint) {
-    return std::find_if(profile.contacts.begin(), profile.contacts.end(),
-                        [&](const Contact& c) { return c.joint == joint; })
-        ->s;
-  };
+  const auto place = [&](int joint) { return profile.contact_at(joint)->s; };
   for (const Coupling& c : topology.couplings()) {
     const double a = place(c.first), b = c.mirrored ? -place(c.second) : place(c.second);
     const int line = strands.line_of(c.first);

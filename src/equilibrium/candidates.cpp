@@ -220,8 +220,7 @@ Successor past_the_rim(const ContactEvent& event, Strip strip, const Profile& pr
   const int j = event.place;
   chain::Seat& seat = strip.on[j];
   const auto rim = obstacle::as_rim(profile.obstacles.pointer(seat.obstacle));
-  const auto here = std::find_if(profile.contacts.begin(), profile.contacts.end(),
-                                 [&](const chain::Contact& c) { return c.joint == j; });
+  const chain::Contact* here = profile.contact_at(j);
   const bool touch = seat.strand == 0 && seat.flat < 0 && !strip.is_line(j - 1) && !strip.is_line(j);
   constexpr double half_way = 0.5;  // of the force's tilt, by the square of its sine
   const bool to_plate = rim && std::pow(rim->across(here->r, here->normal)(0), 2) < half_way;
@@ -252,9 +251,8 @@ std::vector<Successor> after_skeleton(const ContactEvent& event, const Profile& 
   const Skeleton skeleton = skeleton_of(strip);
   ContactEvent here = event;
   const bool length = event.kind == Kind::length;
-  const bool alone =
-      length && !event.redrawn &&
-      ((!laid(event.place) && !laid(event.place + 1)) || !follows(event.place) || !follows(event.place + 1));
+  const bool alone = length && ((!laid(event.place) && !laid(event.place + 1)) || !follows(event.place) ||
+                                !follows(event.place + 1));
   if (alone || skeleton.strip.s.size() == strip.s.size()) {
     if (!length) return strands_split(event, strip, profile);
     std::vector<Successor> out = line_passes(event.place, false, profile, topology, strip);
@@ -274,11 +272,7 @@ std::vector<Successor> after_skeleton(const ContactEvent& event, const Profile& 
 std::vector<Successor> become_one(int link, const Profile& profile, const Topology& topology,
                                   const Strip& strip) {
   Skeleton skeleton = skeleton_of(strip);
-  const auto force = [&](int joint) {
-    const auto found = std::find_if(profile.contacts.begin(), profile.contacts.end(),
-                                    [&](const chain::Contact& c) { return c.joint == joint; });
-    return std::max(found->force, 0.0);
-  };
+  const auto force = [&](int joint) { return std::max(profile.contact_at(joint)->force, 0.0); };
   const double first = force(link), second = force(link + 1),
                part = first + second > 0.0 ? second / (first + second) : 0.5;
   std::vector<double>& s = skeleton.strip.s;

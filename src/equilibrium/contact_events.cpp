@@ -218,13 +218,11 @@ bool presses_at_ends_only(const Profile& profile, const Piece& line) {
          line.p.cwiseAbs().maxCoeff() < rounding;
 }
 
-double length_of(const Piece& piece) { return piece.s(piece.s.size() - 1) - piece.s(0); }
-
 /// Two touches at the ends of a short gap: with it their curvature, its height and all that tells them apart vanishes.
 bool hardly_apart(const Profile& profile, int link) {
   constexpr double short_gap = 0.02, flat = 1e-6;
   if (profile.pieces[link].stretch != Stretch::gap ||
-      length_of(profile.pieces[link]) > short_gap * profile.unit_length)
+      profile.pieces[link].length() > short_gap * profile.unit_length)
     return false;
   int touches = 0;
   for (const Contact& c : profile.contacts)
@@ -249,7 +247,7 @@ std::optional<double> beyond_carried(const Profile& profile, int link, bool begi
   const bool about_mid = begins_at_mid && edges == 1 && touches == 0,
              beside_touch = edges == 1 && touches == 1;
   if (!about_mid && !beside_touch && edges != 2) return std::nullopt;
-  const double length = length_of(profile.pieces[link]), mean = std::max(force / edges, 0.0);
+  const double length = profile.pieces[link].length(), mean = std::max(force / edges, 0.0);
   const double height = 0.96 * mean * std::pow(about_mid ? length : 0.5 * length, 3);
   double part = std::pow(height / carried_inside, 1.0 / 6.0);
   // Beside a touch the gap may have opened inside the line and reached its edge.
@@ -271,7 +269,7 @@ bool about_to_meet(const Profile& profile, const chain::Strands& strands, const 
   const auto shorter = [&](int link) {
     if (link < 0 || link >= static_cast<int>(profile.pieces.size()) || strands.welded(link)) return false;
     if (const auto part = part_of_carried(profile, strands, link)) return *part < close;
-    return length_of(profile.pieces[link]) < short_gap * profile.unit_length;
+    return profile.pieces[link].length() < short_gap * profile.unit_length;
   };
   return std::any_of(profile.contacts.begin(), profile.contacts.end(), [&](const Contact& c) {
     return c.coupling >= 0 && touch.coupling >= 0 &&
@@ -323,7 +321,7 @@ ContactEvent length_event(const Profile& profile, const Topology& topology, cons
     event.redrawn = true;
     return event;
   }
-  ContactEvent event{Kind::length, i, carried.value_or(length_of(piece) - least), piece.s(0)};
+  ContactEvent event{Kind::length, i, carried.value_or(piece.length() - least), piece.s(0)};
   event.redrawn = carried.has_value();
   event.imminent = hardly_apart(profile, i);
   return event;

@@ -188,9 +188,8 @@ double to_the_end(RodProblem& problem, const Vector& x, const Vector& p, int lin
 /// (`least_curvature`).
 double to_flat(RodProblem& problem, Vector x, Vector p, const chain::Profile& shape,
                const ContactEvent& event) {
-  const auto touch = std::find_if(shape.contacts.begin(), shape.contacts.end(),
-                                  [&](const chain::Contact& c) { return c.joint == event.place; });
-  if (event.kind != Kind::curvature || touch == shape.contacts.end()) return -1.0;
+  const chain::Contact* touch = shape.contact_at(event.place);
+  if (event.kind != Kind::curvature || !touch) return -1.0;
   const double step = 1e-5 * std::max(1.0, std::abs(p(0)));
   p(0) += step;
   double slope = 0.0;

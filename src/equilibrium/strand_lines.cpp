@@ -16,12 +16,6 @@ using chain::Strands;
 using chain::Stretch;
 using chain::Topology;
 
-double force_at(const chain::Profile& profile, int joint) {
-  const auto found = std::find_if(profile.contacts.begin(), profile.contacts.end(),
-                                  [&](const chain::Contact& c) { return c.joint == joint; });
-  return found->force;
-}
-
 /// What a line is divided by: p^¼ of the pressure p between the strands, for between touches h apart they are nearer by
 /// ph⁴/192B. At the places of the touches and the line's ends, of its length.
 struct Monitor {
@@ -53,7 +47,7 @@ Monitor monitor_of(const chain::Profile& profile, const StrandLine& line, const 
   for (std::size_t k = 1; k + 1 < touches.size(); ++k) {
     const double span = 0.5 * (strip.s[touches[k + 1]] - strip.s[touches[k - 1]]);
     out.part.push_back((strip.s[touches[k]] - begin) / length);
-    pressure.push_back(std::max(force_at(profile, touches[k]), 0.0) / span);
+    pressure.push_back(std::max(profile.contact_at(touches[k])->force, 0.0) / span);
   }
   const double most = pressure.empty() ? 0.0 : *std::max_element(pressure.begin(), pressure.end());
   for (const double p : pressure) out.value.push_back(most > 0.0 ? std::pow(p + least * most, 0.25) : 1.0);

@@ -15,17 +15,11 @@ using chain::Strands;
 
 namespace {
 
-const Contact* contact_at(const Profile& profile, int joint) {
-  const auto found = std::find_if(profile.contacts.begin(), profile.contacts.end(),
-                                  [&](const Contact& c) { return c.joint == joint; });
-  return found == profile.contacts.end() ? nullptr : &*found;
-}
-
 /// Do two strands touch there of which one is free?
 bool is_free_touch(const Profile& profile, const Strands& strands, int joint) {
   const int other = strands.partner(joint);
   if (other < 0) return false;
-  const Contact *one = contact_at(profile, joint), *two = contact_at(profile, other);
+  const Contact *one = profile.contact_at(joint), *two = profile.contact_at(other);
   return one && two && (one->obstacle < 0 || two->obstacle < 0);
 }
 
@@ -41,17 +35,11 @@ double length_beside(const Profile& profile, const Strands& strands, int joint, 
   double length = 0.0;
   int link = ahead ? joint : joint - 1;
   for (; link >= 0 && link <= last; link += ahead ? 1 : -1) {
-    const chain::Piece& piece = profile.pieces[link];
-    length += piece.s(piece.s.size() - 1) - piece.s(0);
+    length += profile.pieces[link].length();
     const int next = ahead ? link + 1 : link;
     if (length > 0.0 && !strands.inside_line(next)) break;
   }
   return length;
-}
-
-double length_of(const Profile& profile, int link) {
-  const chain::Piece& piece = profile.pieces[link];
-  return piece.s(piece.s.size() - 1) - piece.s(0);
 }
 
 /// Least distance of the other strand from a place near a touch, less 2r.
@@ -88,7 +76,7 @@ std::optional<TouchDip> dip_beside_touch(const Profile& profile, const Strands& 
   for (const int end : {joint, other})
     for (const bool ahead : {false, true})
       reach = std::min(reach, part * length_beside(profile, strands, end, ahead));
-  const Beside distance(profile, touch, *contact_at(profile, other), strands.mirrored(joint));
+  const Beside distance(profile, touch, *profile.contact_at(other), strands.mirrored(joint));
   // Of G″σ²/2 + (k ± c)σ³ + qσ⁴/24 at one and at two parts of what is seen.
   const auto rest = [&](double shift) {
     return (distance(shift) - 0.5 * touch.gap_second * shift * shift) / std::pow(std::abs(shift), 3);
@@ -105,7 +93,6 @@ std::optional<TouchDip> dip_beside_touch(const Profile& profile, const Strands& 
   const double dip = std::max(-touch.gap_second, 0.0);
   out.nearer = dip * dip * dip / (54.0 * cubic * cubic);
   out.length = dip / (3.0 * cubic);
-  out.carried = carried_length(cubic);
   out.presses = quartic < 0.0;
   return out;
 }
@@ -125,11 +112,11 @@ std::optional<double> part_of_carried(const Profile& profile, const Strands& str
                            : strands.lines()[f.line].links() == 1);
       });
   if (!next_to_each_other) return std::nullopt;
-  const Contact &before = *contact_at(profile, link), &after = *contact_at(profile, link + 1);
-  const Contact &of_before = *contact_at(profile, strands.partner(link)),
-                &of_after = *contact_at(profile, strands.partner(link + 1));
+  const Contact &before = *profile.contact_at(link), &after = *profile.contact_at(link + 1);
+  const Contact &of_before = *profile.contact_at(strands.partner(link)),
+                &of_after = *profile.contact_at(strands.partner(link + 1));
   constexpr double least = 1e-12;  // of a force
-  const double length = length_of(profile, link), ratio = std::abs(of_after.s - of_before.s) / length;
+  const double length = profile.pieces[link].length(), ratio = std::abs(of_after.s - of_before.s) / length;
   const double cubic = (before.force + after.force) / (12.0 * profile.material.bending_stiffness) *
                        (yields(before) + std::pow(ratio, 3) * yields(of_before));
   return length / carried_length(std::max(cubic, least));

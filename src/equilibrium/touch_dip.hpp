@@ -16,7 +16,6 @@ struct TouchDip {
       0.0;  ///< how much nearer than 2r strands are beside the touch, on either side the most [ρ]; 0 for G″ >= 0
   double length =
       0.0;  ///< of the line, or the gap, that the touch stands for, along the strand of the touch's first place [ρ]
-  double carried = 0.0;  ///< that where strands are nearer by `carried_between_strands` [ρ]
   bool presses = false;  ///< is it a line?
 };
 

@@ -25,6 +25,8 @@ struct Piece {
   bool weld = false;     ///< of no length, between touches at one place
   /// Of a line that carries no pressure, see rod::buckling_margin.
   std::optional<double> buckling;
+
+  double length() const { return s(s.size() - 1) - s(0); }
 };
 
 /// A contact joint as seen from outside.
@@ -54,6 +56,8 @@ struct Profile {
   double unit_length = 1.0;  ///< see RodKind
   double travelled = 0.0;    ///< τ or ω on a cylinder that slips along the rod, see Travel
 
+  /// The contact at a joint; nullptr: there is none.
+  const Contact* contact_at(int joint) const;
   double begin() const { return pieces.front().s(0); }
   double end() const { return pieces.back().s(pieces.back().s.size() - 1); }
   /// Interpolated state at arclength s (clamped to the profile).
