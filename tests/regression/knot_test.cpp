@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "support/csv.hpp"
+#include "support/fit_of.hpp"
 #include "support/run_program.hpp"
 #include "windlass/discrete_rod/thick_minimiser.hpp"
 #include "windlass/knot/start_curve.hpp"
@@ -144,11 +145,7 @@ BOOST_AUTO_TEST_CASE(friction_is_fitted_on_a_knot) {
     const auto state = nlohmann::json::parse(outcome.out);
     data << grams << ", " << mu * state["physical"]["R_tot"]["value"].get<double>() << "\n";
   }
-  folder.write("data.csv", data.str());
-  const Outcome outcome =
-      run_program({"fit", "run", "--csv", "data.csv", "--json", "--format", "png"}, folder.path());
-  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
-  const auto fit = nlohmann::json::parse(outcome.out);
+  const auto fit = fit_of(folder, data.str());
   BOOST_TEST(fit["mu"].get<double>() == mu, boost::test_tools::tolerance(1e-7));
   BOOST_TEST(fit["points"].size() == 3U);
   for (const auto& point : fit["points"]) BOOST_TEST(point["R_tot_from"] == "computed");

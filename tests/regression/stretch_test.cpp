@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "support/csv.hpp"
+#include "support/fit_of.hpp"
 #include "support/run_program.hpp"
 #include "windlass/rod/capstan.hpp"
 
@@ -155,11 +156,7 @@ BOOST_AUTO_TEST_CASE(friction_is_fitted_on_dragged_states_that_stretch) {
     const double tension = ((1.0 + k * T) / std::sqrt(1.0 + k) - 1.0) / k, beta = std::acos(tension / T);
     data << T << ", " << mu * 2.0 * (tension * (M_PI - beta) + T * std::sin(beta)) << "\n";
   }
-  folder.write("data.csv", data.str());
-  const Outcome outcome =
-      run_program({"fit", "run", "--csv", "data.csv", "--json", "--format", "png"}, folder.path());
-  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
-  const auto fit = nlohmann::json::parse(outcome.out);
+  const auto fit = fit_of(folder, data.str());
   BOOST_TEST(fit["mu"].get<double>() == mu, boost::test_tools::tolerance(1e-7));
 }
 
@@ -177,11 +174,7 @@ BOOST_AUTO_TEST_CASE(friction_is_fitted_on_dragged_states) {
   data << "T, F0\n";
   for (const double T : {1.5, 3.0, 8.0})
     data << T << ", " << mu * windlass::rod::capstan::total_force(T, 2.0 * M_PI) << "\n";
-  folder.write("data.csv", data.str());
-  const Outcome outcome =
-      run_program({"fit", "run", "--csv", "data.csv", "--json", "--format", "png"}, folder.path());
-  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
-  const auto fit = nlohmann::json::parse(outcome.out);
+  const auto fit = fit_of(folder, data.str());
   BOOST_TEST(fit["mu"].get<double>() == mu, boost::test_tools::tolerance(1e-7));
 }
 
