@@ -125,13 +125,13 @@ Chain::StretchAt Chain::stretch_at(const VectorXd& x, const Loads& loads, int jo
 }
 
 void Chain::add_travel(const VectorXd& x, const Loads& loads, int link, Side side,
-                       const SmallVector& gradient, const SmallVector& force, MatrixXd& dense) const {
+                       const SmallVector& gradient, const SmallVector& force, Block& dense) const {
   const int joint = side == Side::right ? link : link + 1;
   const double sign = side == Side::right ? -1.0 : 1.0;
   const Eigen::Index first = numbering_.coordinate[joint];
   if (gauges_.travel == Travel::blocked) {
     const Attachment at = attachment(Purpose::equilibrium, x, loads, joint, side);
-    dense.col(numbering_.slide).segment(first, at.dx.cols()) +=
+    dense.block(first, numbering_.slide, at.dx.cols(), 1) +=
         sign * at.test().transpose() * force_by_travel(loads, link);
     return;
   }
@@ -162,7 +162,7 @@ void Chain::add_travel(const VectorXd& x, const Loads& loads, int link, Side sid
 
 void Chain::add_joint_terms(Purpose purpose, const Numbering& numbering, const VectorXd& x,
                             const Loads& loads, int link, const bvp::EndsVector& gradient,
-                            MatrixXd& dense) const {
+                            Block& dense) const {
   const Arc& arc = *links_[link].arc;
   const int d = arc.tangent();
   const SmallVector n = force(x, loads, link), n_end = force_at_end(x, loads, link, n, gradient);
@@ -196,7 +196,7 @@ void Chain::add_joint_terms(Purpose purpose, const Numbering& numbering, const V
 
 /// Of the term n(ℓ)·X_b, n(ℓ) = n − w ℓ: the derivatives −w·∂X_b with the arclengths of the link's ends.
 void Chain::add_weight(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads,
-                       int link, MatrixXd& dense) const {
+                       int link, Block& dense) const {
   const Attachment at = attachment(purpose, x, loads, link + 1, Side::left);
   const SmallVector by_length = -at.dx.transpose() * weight_on(loads, link);
   const Eigen::Index first = numbering.coordinate[link + 1];
@@ -213,7 +213,7 @@ void Chain::add_weight(Purpose purpose, const Numbering& numbering, const Vector
 }
 
 /// Derivatives of what Chain::stretching() adds to a location condition.
-void Chain::add_stretching(const VectorXd& x, const Loads& loads, int joint, MatrixXd& dense) const {
+void Chain::add_stretching(const VectorXd& x, const Loads& loads, int joint, Block& dense) const {
   const Side side = location(x, joint).side;
   const auto stretched = stretching(x, loads, joint, side);
   if (!stretched) return;
@@ -233,7 +233,7 @@ void Chain::add_stretching(const VectorXd& x, const Loads& loads, int joint, Mat
 }
 
 /// Derivatives of the pulls T ± τ on ends on sliders: dead loads are linear in the tension.
-void Chain::add_pulled(const VectorXd& x, const Loads& loads, MatrixXd& dense) const {
+void Chain::add_pulled(const VectorXd& x, const Loads& loads, Block& dense) const {
   for (const int j : {0, joint_count() - 1}) {
     Loads more = loads;
     more.tension += 1.0;
@@ -245,7 +245,7 @@ void Chain::add_pulled(const VectorXd& x, const Loads& loads, MatrixXd& dense) c
   }
 }
 
-void Chain::add_locations(const VectorXd& x, const Loads& loads, MatrixXd& dense) const {
+void Chain::add_locations(const VectorXd& x, const Loads& loads, Block& dense) const {
   for (int j = 0; j < joint_count(); ++j) {
     const Eigen::Index row = numbering_.location[j];
     if (row < 0 || coupling_of_[j] >= 0) continue;

@@ -1,7 +1,7 @@
 #include "windlass/chain/block_factors.hpp"
 
 #include <Eigen/SparseCore>
-#include <algorithm>
+#include <vector>
 
 #include "continuation/eigen_sparse_instances.hpp"
 
@@ -12,14 +12,15 @@ struct BlockFactors::Sparse {
   Matrix matrix;
   // Its solvers of the transposed matrix are not const.
   mutable Eigen::SparseLU<Matrix, Eigen::COLAMDOrdering<int>> lu;
-  bool known = false;  ///< the pattern, from before
+  std::vector<int> columns, rows;  ///< of the pattern that was analysed
 
-  bool same_pattern(const Matrix& other) const {
-    return known && other.nonZeros() == matrix.nonZeros() && other.cols() == matrix.cols() &&
-           std::equal(other.outerIndexPtr(), other.outerIndexPtr() + other.cols() + 1,
-                      matrix.outerIndexPtr()) &&
-           std::equal(other.innerIndexPtr(), other.innerIndexPtr() + other.nonZeros(),
-                      matrix.innerIndexPtr());
+  /// Is the pattern that of before? It is kept.
+  bool same_pattern() {
+    const std::vector<int> now_columns(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.cols() + 1),
+        now_rows(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros());
+    const bool same = now_columns == columns && now_rows == rows;
+    columns = now_columns, rows = now_rows;
+    return same;
   }
 };
 
@@ -28,24 +29,19 @@ BlockFactors::~BlockFactors() = default;
 BlockFactors::BlockFactors(BlockFactors&&) noexcept = default;
 BlockFactors& BlockFactors::operator=(BlockFactors&&) noexcept = default;
 
-void BlockFactors::compute(const Eigen::MatrixXd& block) {
-  constexpr Eigen::Index large = 300;  // below that the dense factors are as fast
-  is_sparse_ = block.rows() > large;
+void BlockFactors::compute(const Block& block) {
+  is_sparse_ = block.by_columns();
   if (!is_sparse_) {
-    dense_.compute(block);
+    dense_.compute(block.stored_whole());
     const auto diagonal = dense_.matrixLU().diagonal();
     sign_ = diagonal.cwiseAbs().minCoeff() == 0.0 ? 0 : (diagonal.array() < 0.0).count() % 2 == 1 ? -1 : 1;
     sign_ *= static_cast<int>(dense_.permutationP().determinant());
     return;
   }
-  Sparse::Matrix matrix = block.sparseView(0.0, 0.0);
-  matrix.makeCompressed();
   if (!sparse_) sparse_ = std::make_unique<Sparse>();
-  const bool known = sparse_->same_pattern(matrix);
-  sparse_->matrix = std::move(matrix);
-  if (!known) sparse_->lu.analyzePattern(sparse_->matrix);
+  block.copy_to(sparse_->matrix);
+  if (!sparse_->same_pattern()) sparse_->lu.analyzePattern(sparse_->matrix);
   sparse_->lu.factorize(sparse_->matrix);
-  sparse_->known = true;
   sign_ = sparse_->lu.info() == Eigen::Success ? static_cast<int>(sparse_->lu.signDeterminant()) : 0;
 }
 

@@ -79,7 +79,7 @@ void Chain::add_strand_forces(const VectorXd& x, const Loads& loads, VectorXd& f
 }
 
 void Chain::add_couplings(Purpose purpose, const Numbering& numbering, const VectorXd& x,
-                          MatrixXd& dense) const {
+                          Block& dense) const {
   for (std::size_t k = 0; k < couplings_.size(); ++k) {
     const Coupling& c = couplings_[k];
     const Crossing at = crossing(x, static_cast<int>(k));

@@ -23,7 +23,7 @@ void Chain::add_dragged_pushes(const VectorXd& x, const Loads& loads, VectorXd& 
   }
 }
 
-void Chain::add_dragged_pushes(const VectorXd& x, const Loads& loads, MatrixXd& dense) const {
+void Chain::add_dragged_pushes(const VectorXd& x, const Loads& loads, Block& dense) const {
   if (gauges_.travel == Travel::none) return;
   constexpr double h = 1e-5;  // smooth in ω, and a matter of a few numbers: by differences
   for (std::size_t k = 0; k < couplings_.size(); ++k) {

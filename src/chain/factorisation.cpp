@@ -48,7 +48,8 @@ void Chain::factor(const VectorXd& x, const Loads& loads, const MatrixXd& b_aske
   for (Eigen::Index j = 0; j < asked_; ++j)
     flat_ = flat_ && outside(b.col(j)) < nothing && outside(c.col(j)) < nothing;
   const Eigen::Index n = dense_size_, k = borders_;
-  MatrixXd dense = MatrixXd::Zero(n + k, n + k);
+  Block& dense = block_;
+  dense.reset(n + k);
   for (int i = 0; i < link_count(); ++i) {
     locals_[i] = local(Purpose::equilibrium, numbering_, x, loads, i);
     const Local& l = locals_[i];
@@ -76,14 +77,14 @@ void Chain::factor(const VectorXd& x, const Loads& loads, const MatrixXd& b_aske
     interior_c_.col(j) = interior_solve(row, true);
   }
   if (k > 0) {
-    dense.topRightCorner(n, k) = border_b_.topRows(n);
-    dense.bottomLeftCorner(k, n) = border_c_.topRows(n).transpose();
-    dense.bottomRightCorner(k, k) = d - interior_c_.transpose() * b;
+    dense.block(0, n, n, k) += border_b_.topRows(n);
+    dense.block(n, 0, k, n) += border_c_.topRows(n).transpose();
+    dense.block(n, n, k, k) += d - interior_c_.transpose() * b;
   }
-  if (!dense.allFinite()) throw std::domain_error("the chain's matrix is not finite");
+  if (!dense.all_finite()) throw std::domain_error("the chain's matrix is not finite");
   // Made regular, its solutions have no part along a turn that costs nothing, so that Newton does not wander along it.
   const VectorXd turn = neutral_turn(Purpose::equilibrium, numbering_, x, loads, dense, asked_);
-  if (turn.size() > 0) dense += usual_size(dense) * turn * turn.transpose();
+  if (turn.size() > 0) hold(dense, turn, usual_size(dense));
   if (dense.rows() > 0) dense_.compute(dense);
   int negative = 0;
   for (const Link& link : links_) negative += link.arc->negative_pivots();

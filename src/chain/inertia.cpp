@@ -43,7 +43,7 @@ double Chain::neutral_size(const VectorXd& x, const Loads& loads) const {
 }
 
 void Chain::add_gauges(const Numbering& numbering, Purpose purpose, const VectorXd& x,
-                       MatrixXd& dense) const {
+                       Block& dense) const {
   for (int j = 0; j < joint_count(); ++j) {
     const double share = slide_share(j);
     if (share == 0.0) continue;
@@ -66,9 +66,9 @@ void Chain::add_gauges(const Numbering& numbering, Purpose purpose, const Vector
   if (numbering.phase >= 0) dense(numbering.phase, numbering.phase) = -1.0;
 }
 
-MatrixXd Chain::variation_matrix(Purpose purpose, const Numbering& numbering, const VectorXd& x,
+Block Chain::variation_matrix(Purpose purpose, const Numbering& numbering, const VectorXd& x,
                                  const Loads& loads) const {
-  MatrixXd dense = MatrixXd::Zero(numbering.size, numbering.size);
+  Block dense(numbering.size);
   for (int i = 0; i < link_count(); ++i)
     add_joint_terms(purpose, numbering, x, loads, i, gradients_[i], dense);
   add_gauges(numbering, purpose, x, dense);
@@ -96,7 +96,7 @@ MatrixXd Chain::condensed_share(Purpose purpose, const Local& local, const Arc& 
 }
 
 std::vector<Chain::Border> Chain::add_borders(const Arc& arc, const Local& local,
-                                              const std::vector<Coupled>& coupled, MatrixXd& dense) {
+                                              const std::vector<Coupled>& coupled, Block& dense) {
   std::vector<Border> borders;
   for (const Coupled& coupling : coupled) {
     Border border{coupling.row, coupling.along, coupling.along};
@@ -115,15 +115,13 @@ std::vector<Chain::Border> Chain::add_borders(const Arc& arc, const Local& local
   return borders;
 }
 
-std::vector<Chain::Coupled> Chain::held_by(const Arc& arc, MatrixXd& dense) {
+std::vector<Chain::Coupled> Chain::held_by(const Arc& arc, Block& dense) {
   std::vector<Coupled> out;
   for (const bvp::Held& held : arc.held()) {
     const Eigen::Index row = dense.rows();
     out.push_back({row, VectorXd::Zero(arc.interior_tangent())});
     out.back().along.segment(held.first, held.direction.size()) = held.direction;
-    dense.conservativeResize(row + 1, row + 1);
-    dense.row(row).setZero();
-    dense.col(row).setZero();
+    dense.grow();
     dense(row, row) = 1.0;
   }
   return out;
@@ -135,10 +133,10 @@ std::vector<const Arc*> Chain::arcs() const {
   return out;
 }
 
-MatrixXd Chain::condensed_variation(Purpose purpose, const Numbering& numbering, const VectorXd& x,
+Block Chain::condensed_variation(Purpose purpose, const Numbering& numbering, const VectorXd& x,
                                     const Loads& loads, const std::vector<const Arc*>& arcs,
                                     const std::vector<bvp::EndsMatrix>& condensed) const {
-  MatrixXd dense = variation_matrix(purpose, numbering, x, loads);
+  Block dense = variation_matrix(purpose, numbering, x, loads);
   const VectorXd motion = numbering.phase >= 0 ? phase_motion(purpose, numbering, x, loads) : VectorXd();
   const VectorXd slid = holds_knot(numbering) ? slid_by(purpose, numbering, x, loads) : VectorXd();
   for (Eigen::Index k = 0; k < numbering.size && slid.size() > 0; ++k)
@@ -158,7 +156,8 @@ MatrixXd Chain::condensed_variation(Purpose purpose, const Numbering& numbering,
     if (slid.size() > 0 && arc.interior_nodes() > 0) coupled.push_back({numbering.slide, inside(slid)});
     add_borders(arc, l, coupled, dense);
   }
-  return 0.5 * (dense + dense.transpose());
+  dense.symmetrise();
+  return dense;
 }
 
 Chain::Inertia Chain::inertia(const VectorXd& x, const Loads& loads, Parity parity) const {
@@ -176,13 +175,13 @@ Chain::Inertia Chain::inertia(const VectorXd& x, const Loads& loads, Parity pari
     }
     negative += arcs[i]->negative_pivots();
   }
-  MatrixXd dense = condensed_variation(purpose, numbering, x, loads, arcs, condensed);
+  Block dense = condensed_variation(purpose, numbering, x, loads, arcs, condensed);
   const VectorXd turn = neutral_turn(purpose, numbering, x, loads, dense);
-  if (turn.size() > 0) dense += usual_size(dense) * turn * turn.transpose();
+  if (turn.size() > 0) hold(dense, turn, usual_size(dense));
   constexpr double close_to_rounding = 1e-9;  // of the largest entry
-  const SymmetricFactors factors(dense);
-  const bool near = replaced.empty() && dense.size() > 0 &&
-                    factors.least_pivot() < close_to_rounding * dense.cwiseAbs().maxCoeff();
+  const SymmetricFactors factors(dense.whole());
+  const bool near = replaced.empty() && dense.rows() > 0 &&
+                    factors.least_pivot() < close_to_rounding * dense.largest();
   return {negative + factors.negative(), near};
 }
 

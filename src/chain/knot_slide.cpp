@@ -72,8 +72,10 @@ double Chain::sliding_stiffness(const VectorXd& x, const Loads& loads) const {
   const Numbering numbering = number(purpose, gauges_.knot);
   if (numbering.slide < 0) return 0.0;
   // K v + Φᵀμ = 0, Φ v = 1: the slide of size one that costs least, and −μ = v·K v. A half chain has half the energy.
-  const MatrixXd dense = condensed_variation(purpose, numbering, x, loads, arcs(), condensed_);
-  const VectorXd v = dense.partialPivLu().solve(VectorXd::Unit(dense.rows(), numbering.slide));
+  BlockFactors dense;
+  const Block block = condensed_variation(purpose, numbering, x, loads, arcs(), condensed_);
+  dense.compute(block);
+  const VectorXd v = dense.solve(VectorXd::Unit(block.rows(), numbering.slide), false);
   return -(half() ? 2.0 : 1.0) * v(numbering.slide);
 }
 

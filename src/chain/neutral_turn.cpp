@@ -53,7 +53,7 @@ VectorXd Chain::turn_of_joints(Purpose purpose, const Numbering& numbering, cons
 }
 
 VectorXd Chain::neutral_turn(Purpose purpose, const Numbering& numbering, const VectorXd& x,
-                             const Loads& loads, const MatrixXd& dense, Eigen::Index asked) const {
+                             const Loads& loads, const Block& dense, Eigen::Index asked) const {
   if (dense.rows() == 0 || !may_turn(purpose == Purpose::odd ? Parity::odd : Parity::even, x, loads))
     return {};
   const Turn turn = turn_to_expect(x, loads);
@@ -87,6 +87,10 @@ VectorXd Chain::nearly_neutral_turn(const VectorXd& x, const Loads& loads) const
   return motion.normalized();
 }
 
-double usual_size(const MatrixXd& dense) { return median(dense.cwiseAbs().rowwise().maxCoeff()); }
+double usual_size(const Block& dense) { return median(dense.largest_rows()); }
+
+void hold(Block& dense, const VectorXd& d, double by) {
+  dense.block(0, 0, d.size(), d.size()) += by * d * d.transpose();
+}
 
 }  // namespace windlass::chain

@@ -2,6 +2,8 @@
 
 #include <Eigen/Dense>
 
+#include "windlass/chain/block.hpp"
+
 /// A turn of the whole rod that costs nothing (Chain::expect_neutral_turn), in the dense block of a chain.
 namespace windlass::chain {
 
@@ -12,6 +14,8 @@ inline constexpr double nearly_zero = 1e-6;
 /// Size of the entries in the middle: an arc that is singular by itself leaves one of 1e10.
 double median(Eigen::VectorXd values);
 /// The same of the largest in each row.
-double usual_size(const Eigen::MatrixXd& dense);
+double usual_size(const Block& dense);
+/// A + by·d dᵀ.
+void hold(Block& dense, const Eigen::VectorXd& d, double by);
 
 }  // namespace windlass::chain

@@ -45,7 +45,7 @@ Chain::SecondVariation Chain::second_variation(const VectorXd& x, const Loads& l
   out.constraints = numbering.constraints;
   out.matrix.resize(total, total);
   out.metric.resize(total, total);
-  MatrixXd dense = variation_matrix(purpose, numbering, x, loads);
+  const Block dense = variation_matrix(purpose, numbering, x, loads);
   for (int i = 0; i < link_count(); ++i) {
     const Placed placed = place(x, loads, i);
     const Local l = local(purpose, numbering, x, loads, i);
@@ -53,10 +53,7 @@ Chain::SecondVariation Chain::second_variation(const VectorXd& x, const Loads& l
     out.matrix += Sparse(map.transpose() * sparse_hessian(purpose, placed, i) * map);
     out.metric += material_metric(numbering, placed, map, i);
   }
-  std::vector<Triplet> entries;
-  for (Eigen::Index i = 0; i < dense.rows(); ++i)
-    for (Eigen::Index j = 0; j < dense.cols(); ++j)
-      if (dense(i, j) != 0.0) entries.emplace_back(i, j, dense(i, j));
+  std::vector<Triplet> entries = dense.entries();
   if (holds_knot(numbering)) {
     const VectorXd slid = slid_by(purpose, numbering, x, loads);
     for (Eigen::Index k = 0; k < total; ++k) {
@@ -174,7 +171,7 @@ VectorXd Chain::as_increment(const VectorXd& variation, Parity parity) const {
 Sparse Chain::jacobian(const VectorXd& x, const Loads& loads) const {
   residual(x, loads);
   Sparse out(size_, size_);
-  MatrixXd dense = MatrixXd::Zero(dense_size_, dense_size_);
+  Block dense(dense_size_);
   for (int i = 0; i < link_count(); ++i) {
     const Local l = local(Purpose::equilibrium, numbering_, x, loads, i);
     const Sparse columns = scatter(l.columns, l, dense_size_, i), rows = scatter(l.rows, l, dense_size_, i);
@@ -184,10 +181,7 @@ Sparse Chain::jacobian(const VectorXd& x, const Loads& loads) const {
   add_locations(x, loads, dense);
   add_couplings(Purpose::equilibrium, numbering_, x, dense);
   add_dragged_pushes(x, loads, dense);
-  std::vector<Triplet> entries;
-  for (Eigen::Index i = 0; i < dense_size_; ++i)
-    for (Eigen::Index j = 0; j < dense_size_; ++j)
-      if (dense(i, j) != 0.0) entries.emplace_back(i, j, dense(i, j));
+  const std::vector<Triplet> entries = dense.entries();
   Sparse joints(size_, size_);
   joints.setFromTriplets(entries.begin(), entries.end());
   return out + joints;

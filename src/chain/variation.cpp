@@ -27,12 +27,9 @@ Variation::Variation(const Linearisation& at, Parity parity) : at_(at) {
   for (Eigen::Index k = 0; k < numbering.size; ++k) dense_.push_back(k);
   for (int i = 0; i < chain.link_count(); ++i) place(purpose, numbering, i);
   const auto count = static_cast<Eigen::Index>(dense_.size());
-  MatrixXd dense = MatrixXd::Zero(count, count);
-  dense.topLeftCorner(numbering.size, numbering.size) =
-      chain.variation_matrix(purpose, numbering, at.x_, at.loads_);
-  for (Eigen::Index c = 0; c < count; ++c)
-    for (Eigen::Index r = 0; r < count; ++r)
-      if (dense(r, c) != 0.0) joints_.emplace_back(r, c, dense(r, c));
+  Block dense(count);
+  joints_ = chain.variation_matrix(purpose, numbering, at.x_, at.loads_).entries();
+  for (const auto& entry : joints_) dense(entry.row(), entry.col()) = entry.value();
   for (int i = 0; i < chain.link_count(); ++i) {
     const Place& here = places_[i];
     const auto& dofs = here.local.dofs;
@@ -48,18 +45,18 @@ Variation::Variation(const Linearisation& at, Parity parity) : at_(at) {
   if (chain.holds_knot(numbering)) hold_slide(purpose, numbering, dense);
   add_borders(dense);
   unknowns_ = dense.rows();
-  dense = (0.5 * (dense + dense.transpose())).eval();
+  dense.symmetrise();
   locations_ = numbering.location;
   const VectorXd turn = chain.neutral_turn(purpose, numbering, at.x_, at.loads_, dense);
   neutral_ = turn.size() > 0;
   if (neutral_) hold(dense, turn, usual_size(dense));
   condensed_ = dense;
   condensed_negative_ = negative_ - numbering.constraints;
-  factors_ = std::make_shared<const SymmetricFactors>(dense);
+  factors_ = std::make_shared<const SymmetricFactors>(dense.whole());
   negative_ += factors_->negative();
   if (factors_->least_pivot() < rounding * size_of(dense.diagonal())) {
     hold_null(dense);
-    factors_ = std::make_shared<const SymmetricFactors>(dense);
+    factors_ = std::make_shared<const SymmetricFactors>(dense.whole());
   }
   negative_ -= numbering.constraints;
 }
@@ -97,14 +94,14 @@ double Variation::size_of(const VectorXd& values) const {
 
 /// D + τ d dᵀ for the dense block D of a singular K, d the dense part of its null vector g: solves K v = f for every f with
 /// gᵀf = 0, as gᵀ times the equation says that d·v = 0.
-void Variation::hold(MatrixXd& dense, const VectorXd& d, double by) {
-  dense += by * d * d.transpose();
+void Variation::hold(Block& dense, const VectorXd& d, double by) {
+  chain::hold(dense, d, by);
   neutral_motion_ = VectorXd::Zero(size_);
   expand(d, neutral_motion_);
 }
 
-void Variation::hold_null(MatrixXd& dense) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(dense);
+void Variation::hold_null(Block& dense) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(dense.whole());
   Eigen::Index nearest = 0;
   const double least = eigen.eigenvalues().cwiseAbs().minCoeff(&nearest);
   const double usual = size_of(eigen.eigenvalues());
@@ -133,7 +130,7 @@ void Variation::expand(const VectorXd& y, VectorXd& v) const {
 
 /// K + τ M g gᵀ M, g the phase's motion of unit size: moves it out of the way and, as K g = 0, leaves all other eigenvectors
 /// as they are. Written with one more unknown. A straight rod has no such motion.
-void Variation::hold_phase(Chain::Purpose purpose, const Chain::Numbering& numbering, MatrixXd& dense) {
+void Variation::hold_phase(Chain::Purpose purpose, const Chain::Numbering& numbering, Block& dense) {
   constexpr double straight = 1e-6;  // [rad √length]
   motion_ = at_.chain_.phase_motion(purpose, numbering, at_.x_, at_.loads_);
   const VectorXd turned = rotations(motion_);
@@ -148,7 +145,7 @@ void Variation::hold_phase(Chain::Purpose purpose, const Chain::Numbering& numbe
 }
 
 /// As Chain::condensed_variation; struts have no tails in closed form, so that the two list their unknowns alike.
-void Variation::hold_slide(Chain::Purpose purpose, const Chain::Numbering& numbering, MatrixXd& dense) {
+void Variation::hold_slide(Chain::Purpose purpose, const Chain::Numbering& numbering, Block& dense) {
   slide_ = numbering.slide;
   slid_by_ = at_.chain_.slid_by(purpose, numbering, at_.x_, at_.loads_);
   for (std::size_t k = 0; k < dense_.size(); ++k) {
@@ -157,7 +154,7 @@ void Variation::hold_slide(Chain::Purpose purpose, const Chain::Numbering& numbe
   }
 }
 
-void Variation::add_borders(MatrixXd& dense) {
+void Variation::add_borders(Block& dense) {
   for (Place& here : places_) {
     const Arc& arc = *here.part->arc;
     if (arc.interior_nodes() == 0) continue;
@@ -172,7 +169,7 @@ Variation::Doubt Variation::doubt() const {
   constexpr double close = 1e-8;  // of the largest: an eigenvalue of the block is not yet one of K
   constexpr double elimination =
       16.0;  // times the rounding of a quotient; 4 was seen, in long loops of struts
-  const SmallEigenvalues small = small_eigenvalues(condensed_, close);
+  const SmallEigenvalues small = small_eigenvalues(condensed_.whole(), close);
   Doubt out{condensed_negative_ + small.negative};
   VectorXd motion(size_);
   for (Eigen::Index k = 0; k < small.values.size(); ++k) {

@@ -301,6 +301,7 @@ std::optional<Vector> RodProblem::laid_where_needed(const Vector& x, const Vecto
   for (const ContactEvent& event : contact_events(shape, topology_))
     if (event.kind == ContactEvent::Kind::approach && event.redrawn)
       nearer = std::max(nearer, 1.0 - event.value);
+  if (touches_too_near(shape, topology_)) nearer = 1.0;
   if (nearer > many && nearer < few) return std::nullopt;
   const Strip strip(topology_, joint_places(x, p, shape));
   const Successor next = with_touches(skeleton_of(strip).strip.successor(), shape, topology_);

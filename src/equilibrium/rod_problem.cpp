@@ -308,8 +308,10 @@ int RodProblem::polish(Vector& x, const Vector& p, int most) {
       solve_from_guess(none, iterate, most, [&](const continuation::Iterate&, const Vector& dx) {
         const Eigen::Index geometric = chain_->geometric_size(), dense = chain_->dense_size();
         const double forces = unit * dx.segment(geometric, dense - geometric).lpNorm<Eigen::Infinity>();
-        return far / std::max({far, forces, dx.head(geometric).lpNorm<Eigen::Infinity>(),
-                               dx.tail(dx.size() - dense).lpNorm<Eigen::Infinity>()});
+        const double shape = std::max(dx.head(geometric).lpNorm<Eigen::Infinity>(),
+                                      dx.tail(dx.size() - dense).lpNorm<Eigen::Infinity>());
+        // The equations are linear in the forces: what is left out of them is of the order shape·(shape + forces).
+        return far / std::max({far, shape, std::sqrt(shape * forces)});
       });
   if (report.converged) x = iterate.x;
   return report.converged ? report.iterations : -1;

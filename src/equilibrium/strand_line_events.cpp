@@ -41,6 +41,16 @@ double nearer_between_touches(const Profile& profile, const chain::Topology& top
   return most;
 }
 
+bool touches_too_near(const Profile& profile, const chain::Topology& topology) {
+  const chain::Strands strands(topology);
+  for (int i = 0; i < static_cast<int>(profile.pieces.size()); ++i) {
+    const bool between = strands.inside_line(i) && strands.inside_line(i + 1) && !strands.welded(i) &&
+                         (strands.laid(i) || strands.laid(i + 1));
+    if (between && profile.pieces[i].length() < laid_too_near * profile.unit_length) return true;
+  }
+  return false;
+}
+
 int line_of_several(const chain::Strands& strands, int link) {
   const int line = strands.line_of(link);
   return line >= 0 && line == strands.line_of(link + 1) && strands.lines()[line].links() > 1 ? line : -1;

@@ -16,16 +16,20 @@ ContactEvent spare_touches(const chain::Profile& profile, const chain::Strands& 
 /// between free strands.
 double nearer_between_touches(const chain::Profile& profile, const chain::Topology& topology);
 
+/// Are touches inside such lines nearer to each other than they are laid anew, or have they passed each other? That of a strand which
+/// another one is divided for goes where tangency says.
+bool touches_too_near(const chain::Profile& profile, const chain::Topology& topology);
+
 /// What is pressed on right before the end of a line has no touch there: the end itself takes it. From the second distance on it is laid
 /// without, at the first it is laid with one: F d²/3B of the rod's height over a span to the next touch is below what is carried [ρ].
 inline constexpr double press_apart = 6e-4, press_at_end = 4e-4;
 /// No more touches are laid between two joints than are as far apart as the first, and they are laid anew once nearer than the
 /// second: their forces answer to their places by 192B/h³ [ρ].
-inline constexpr double laid_apart = 3e-4, laid_too_near = 2e-4;
+inline constexpr double laid_apart = 1e-3, laid_too_near = 5e-4;
 /// The middle of a line between a strand and its own image, which an edge, or what else locates itself, comes near: between the edge's
-/// place and its image the pulls of both open the line, by more than it carries. It is laid from the first distance on; and touches
+/// place and its image the pulls of both open the line, by more than it carries; and touches
 /// beyond the middle that come near such a joint [ρ].
-inline constexpr double apart_from_middle = 5.2e-3, at_middle = 4.5e-3, at_touch = 5e-4;
+inline constexpr double at_middle = 4.5e-3, at_touch = 5e-4;
 
 /// Length at which what a link is of, [begin, end] as joints, has the touches of its lines laid anew; nullopt: it is passed, or none of
 /// these.

@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <memory>
 
+#include "windlass/chain/block.hpp"
+
 namespace windlass::chain {
 
 /// Factors of the block that couples a chain's arcs. Small ones are dense; that of a rod with many touches, each of which knows its
@@ -14,7 +16,7 @@ class BlockFactors {
   BlockFactors(BlockFactors&&) noexcept;
   BlockFactors& operator=(BlockFactors&&) noexcept;
 
-  void compute(const Eigen::MatrixXd& block);
+  void compute(const Block& block);
   Eigen::VectorXd solve(const Eigen::VectorXd& rhs, bool transposed) const;
   int determinant_sign() const { return sign_; }  ///< 0: singular
 

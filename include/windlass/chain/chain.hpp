@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "windlass/bvp/arc.hpp"
+#include "windlass/chain/block.hpp"
 #include "windlass/chain/block_factors.hpp"
 #include "windlass/chain/coupling.hpp"
 #include "windlass/contact/joint.hpp"
@@ -308,11 +309,11 @@ class Chain {
   VectorXd weight_on(const Loads& loads, int link) const;
   /// Adds how n falls with a link's length to what its end takes of it.
   void add_weight(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads,
-                  int link, MatrixXd& dense) const;
+                  int link, Block& dense) const;
   /// What the stretch of the rod adds to a joint's location condition; `side` as in Joint::Location.
   std::optional<Joint::Stretching> stretching(const VectorXd& x, const Loads& loads, int joint,
                                               contact::Side side) const;
-  void add_stretching(const VectorXd& x, const Loads& loads, int joint, MatrixXd& dense) const;
+  void add_stretching(const VectorXd& x, const Loads& loads, int joint, Block& dense) const;
   /// Adds a joint's terms to its balance equations, of the coordinates that vary.
   void add_kept(const contact::SmallVector& by_w, int joint, VectorXd& f) const;
   /// What the joint on one side of a link takes of a line's own normal force; see Joint::drag.
@@ -325,17 +326,17 @@ class Chain {
   /// Adds the change with τ or ω of what a joint takes from the arc on one side to the travel's column.
   void add_travel(const VectorXd& x, const Loads& loads, int link, contact::Side side,
                   const contact::SmallVector& gradient, const contact::SmallVector& force,
-                  MatrixXd& dense) const;
+                  Block& dense) const;
   contact::Attachment attachment(Purpose purpose, const VectorXd& x, const Loads& loads, int joint,
                                  contact::Side side) const;
   Local local(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads,
               int link) const;
   /// Dense terms that do not come from an arc's condensed Hessian: curvature of attachments, closure, location.
   void add_joint_terms(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads,
-                       int link, const bvp::EndsVector& gradient, MatrixXd& dense) const;
-  void add_locations(const VectorXd& x, const Loads& loads, MatrixXd& dense) const;
-  void add_pulled(const VectorXd& x, const Loads& loads, MatrixXd& dense) const;
-  void add_gauges(const Numbering& numbering, Purpose purpose, const VectorXd& x, MatrixXd& dense) const;
+                       int link, const bvp::EndsVector& gradient, Block& dense) const;
+  void add_locations(const VectorXd& x, const Loads& loads, Block& dense) const;
+  void add_pulled(const VectorXd& x, const Loads& loads, Block& dense) const;
+  void add_gauges(const Numbering& numbering, Purpose purpose, const VectorXd& x, Block& dense) const;
   /// An unknown of a dense block that acts on an arc's interior.
   struct Coupled {
     Eigen::Index row;
@@ -348,11 +349,11 @@ class Chain {
   };
   /// Adds to a dense block what is left of such unknowns when the arc's interior is condensed.
   static std::vector<Border> add_borders(const Arc& arc, const Local& local,
-                                         const std::vector<Coupled>& coupled, MatrixXd& dense);
+                                         const std::vector<Coupled>& coupled, Block& dense);
   /// One more unknown of the dense block for each direction that the arc's factors hold; see bvp::Held.
-  static std::vector<Coupled> held_by(const Arc& arc, MatrixXd& dense);
+  static std::vector<Coupled> held_by(const Arc& arc, Block& dense);
   /// The dense block of a variation, interiors condensed by the arcs' last factorisations; symmetric.
-  MatrixXd condensed_variation(Purpose purpose, const Numbering& numbering, const VectorXd& x,
+  Block condensed_variation(Purpose purpose, const Numbering& numbering, const VectorXd& x,
                                const Loads& loads, const std::vector<const Arc*>& arcs,
                                const std::vector<bvp::EndsMatrix>& condensed) const;
   std::vector<const Arc*> arcs() const;
@@ -373,10 +374,10 @@ class Chain {
   contact::Joint::Location location(const VectorXd& x, int joint) const;
   /// Of the couplings: their forces and conditions, to a residual; their derivatives, to a dense block.
   void add_strand_forces(const VectorXd& x, const Loads& loads, VectorXd& f) const;
-  void add_couplings(Purpose purpose, const Numbering& numbering, const VectorXd& x, MatrixXd& dense) const;
+  void add_couplings(Purpose purpose, const Numbering& numbering, const VectorXd& x, Block& dense) const;
   /// Adds what those forces drag where the cylinder slips: to a residual, and its derivatives to the equilibrium's block.
   void add_dragged_pushes(const VectorXd& x, const Loads& loads, VectorXd& f) const;
-  void add_dragged_pushes(const VectorXd& x, const Loads& loads, MatrixXd& dense) const;
+  void add_dragged_pushes(const VectorXd& x, const Loads& loads, Block& dense) const;
   /// X_b − X_a of a link's ends.
   contact::SmallVector rise(const VectorXd& x, const Placed& placed, int link) const;
   /// Adds to a contact's place, rests included.
@@ -390,7 +391,7 @@ class Chain {
   Eigen::SparseMatrix<double> material_metric(const Numbering& numbering, const Placed& placed,
                                               const Eigen::SparseMatrix<double>& map, int link) const;
   Eigen::SparseMatrix<double> sparse_hessian(Purpose purpose, const Placed& placed, int link) const;
-  MatrixXd variation_matrix(Purpose purpose, const Numbering& numbering, const VectorXd& x,
+  Block variation_matrix(Purpose purpose, const Numbering& numbering, const VectorXd& x,
                             const Loads& loads) const;
 
   static constexpr double flat_to = 1e-9;  ///< rounding [ρ, rad]
@@ -413,7 +414,7 @@ class Chain {
   /// there is none, or the block resists it. With its square the block is regular, all else as before.
   /// @param asked  borders between the two
   VectorXd neutral_turn(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads,
-                        const MatrixXd& dense, Eigen::Index asked = 0) const;
+                        const Block& dense, Eigen::Index asked = 0) const;
   /// Largest entry of a vector at those places.
   double outside(const Eigen::Ref<const VectorXd>& f) const;
 
@@ -449,6 +450,7 @@ class Chain {
   mutable std::vector<bvp::EndsVector> gradients_;  ///< at the last residual or factorisation
   MatrixXd border_b_, border_c_;                    ///< reduced borders
   MatrixXd interior_b_, interior_c_;                ///< K⁻¹ b, K⁻¹ c on the interiors
+  Block block_;
   BlockFactors dense_;
   Eigen::Index borders_ = 0;  ///< those asked for, then that of the phase
   Eigen::Index asked_ = 0;

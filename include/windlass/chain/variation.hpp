@@ -94,14 +94,14 @@ class Variation {
     std::vector<Chain::Border> borders = {};  ///< dense unknowns that act on the interior
   };
   void place(Chain::Purpose purpose, const Chain::Numbering& numbering, int link);
-  void hold(MatrixXd& dense, const VectorXd& d, double by);
-  void hold_null(MatrixXd& dense);
+  void hold(Block& dense, const VectorXd& d, double by);
+  void hold_null(Block& dense);
   /// Of pivots: the one in the middle, and that of a held direction (bvp::Held) before anything cancels, 1.
   double size_of(const VectorXd& values) const;
   void expand(const VectorXd& y, VectorXd& v) const;
-  void hold_phase(Chain::Purpose purpose, const Chain::Numbering& numbering, MatrixXd& dense);
-  void hold_slide(Chain::Purpose purpose, const Chain::Numbering& numbering, MatrixXd& dense);
-  void add_borders(MatrixXd& dense);
+  void hold_phase(Chain::Purpose purpose, const Chain::Numbering& numbering, Block& dense);
+  void hold_slide(Chain::Purpose purpose, const Chain::Numbering& numbering, Block& dense);
+  void add_borders(Block& dense);
   /// Values of v at a place's local unknowns.
   VectorXd gathered(const Place& place, const VectorXd& v) const;
 
@@ -115,7 +115,7 @@ class Variation {
   double neutral_size_ = 0.0;
   VectorXd neutral_motion_;
   std::vector<Eigen::Index> locations_;  ///< rows of touches' arclengths in the dense block, −1: none
-  MatrixXd condensed_;                   ///< dense block, before anything is held in it
+  Block condensed_;                      ///< dense block, before anything is held in it
   int condensed_negative_ = 0;           ///< negative eigenvalues that it adds to
   std::vector<Eigen::Triplet<double>> joints_;  ///< terms of the dense block that no arc makes
   VectorXd motion_, slid_by_;                   ///< rows over v of the phase and of a knot's slide
