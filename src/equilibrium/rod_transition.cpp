@@ -34,6 +34,7 @@ std::optional<std::string> vanishing_with(const chain::Profile& shape, const Top
   };
   for (const ContactEvent& event : contact_events(shape, topology)) {
     if (event.kind == Kind::curvature && touches_there(event)) return event.name();
+    if (event.kind == Kind::slope && std::abs(event.s - s) < 10.0 * least) return event.name();
     const bool unpressed = event.kind == Kind::buckling && shape.pieces[event.place].buckling;
     if (event.kind != Kind::pressure && !unpressed) continue;
     const Eigen::VectorXd& places = shape.pieces[event.place].s;
@@ -278,9 +279,11 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
         end.after = next.topology.text() + " (" + rim_not_thickened() + ")";
         return end;
       }
-      beyond =
-          fmt::format("{} ({} is not built for {})", next.topology.text(), key,
-                      key == std::string_view("rod.extensible") ? "lines that friction stretches" : "lines");
+      beyond = fmt::format("{} ({} is not built for {})", next.topology.text(), key,
+                           key == std::string_view("rod.extensible") ? "lines that friction stretches"
+                           : key == std::string_view("plate.2.height")
+                               ? "places where the cylinder holds the rod, too"
+                               : "lines");
       continue;
     }
     continuation::Transition transition;

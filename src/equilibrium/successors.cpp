@@ -121,7 +121,7 @@ std::vector<Successor> successors(const ContactEvent& event, const Profile& prof
   for (Successor& next : one_sided(event, profile, topology, s)) {
     if (parted(next)) next = with_touches(skeleton_of(Strip(next)).strip.successor(), profile, topology);
     // Of a symmetric state mirror images go together.
-    if (symmetric(topology, s) && !is_symmetric(next))
+    if (event.kind != ContactEvent::Kind::room && symmetric(topology, s) && !is_symmetric(next))
       out.push_back(mirrored(next, event.s > 0.0, static_cast<int>(profile.pieces.size())));
     out.push_back(std::move(next));
   }
