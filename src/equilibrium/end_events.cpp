@@ -78,6 +78,16 @@ bool is_plate(const obstacle::Set& obstacles, int obstacle) {
   return obstacle > 0 && obstacles[0].slips() && obstacles[obstacle].curvature() == 0.0;
 }
 
+int image_of(const Profile& profile, int obstacle) {
+  if (!profile.stands_free || obstacle <= 0) return obstacle;
+  const std::vector<int> both = plates(profile.obstacles);
+  if (both.size() != 2) return obstacle;
+  const int beyond = obstacle - (obstacle < both[1] ? both[0] : both[1]);  // 1: an outer edge
+  const int image = (obstacle < both[1] ? both[1] : both[0]) + beyond;
+  return image < profile.obstacles.size() && is_plate(profile.obstacles, image) == (beyond == 0) ? image
+                                                                                                 : obstacle;
+}
+
 std::optional<Least> graze_at_end(const Profile& profile, const Topology& topology, int obstacle, int link) {
   constexpr double level = 1e-9;  // a tail that lies in the plate, or is straight long before its end
   const bool right = link + 1 == static_cast<int>(profile.pieces.size());

@@ -13,6 +13,10 @@ namespace windlass::equilibrium {
 /// Is an obstacle a plate beside the cylinder?
 bool is_plate(const obstacle::Set& obstacles, int obstacle);
 
+/// The obstacle that a rod's image touches. Where nothing but two plates holds a rod along the axis, its half-turn maps one to the
+/// other; the mirror of one that is dragged keeps them.
+int image_of(const chain::Profile& profile, int obstacle);
+
 /// The gap at an end of the rod on this link that comes nearer to a plate all the way to the end; nothing where it does not, touches
 /// that plate, or is held in its place.
 std::optional<Least> graze_at_end(const chain::Profile& profile, const chain::Topology& topology,
