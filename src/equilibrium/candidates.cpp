@@ -193,7 +193,7 @@ std::vector<Successor> after_curvature(const ContactEvent& event, const Strip& s
 }
 
 std::vector<Successor> after_graze(const ContactEvent& event, const Strip& strip, const Profile& profile) {
-  if (auto next = end_touches(event, strip)) return {*next};
+  if (auto next = end_touches(event, profile, strip)) return {*next};
   const int i = event.place;
   Strip touched = strip;
   if (!strip.mid_touch && strip.starts_at_mid(i) && std::abs(event.s) < 1e-9) {

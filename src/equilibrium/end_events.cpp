@@ -17,6 +17,10 @@ using Kind = ContactEvent::Kind;
 
 namespace {
 
+/// Slope of an end towards a plate, and the plate's force over the pull, below which what is between the end's touch and that of the
+/// tail beside it is a stretch of the branch that its steps do not resolve: a length of the rod times this, in the plate's height.
+constexpr double nearly_level = 1e-6;
+
 /// One of the two ends of a rod on a full chain.
 struct RodEnd {
   double s;
@@ -145,11 +149,33 @@ bool is_end(const Strip& strip, int joint) {
   return joint + 1 == static_cast<int>(strip.s.size()) || (joint == 0 && !strip.half);
 }
 
-std::optional<Successor> end_touches(const ContactEvent& event, const Strip& strip) {
+namespace {
+
+/// The touch of an end, a little further in. What is beyond begins at the end.
+Successor moved_inward(const Strip& strip, bool right) {
+  constexpr double length = 0.05;
+  Strip next = strip;
+  chain::Seat& end = right ? next.on.back() : next.on.front();
+  const chain::Seat plate = end;
+  end = {};
+  const int tail = right ? static_cast<int>(strip.parts.size()) - 1 : 0;
+  if (right)
+    next.split(tail, strip.s.back() - length, Stretch::gap, Stretch::tail, plate);
+  else
+    next.split(tail, strip.s.front() + length, Stretch::tail, Stretch::gap, plate);
+  next.parts[right ? tail + 1 : tail].fresh = true;
+  return next.successor();
+}
+
+}  // namespace
+
+std::optional<Successor> end_touches(const ContactEvent& event, const Profile& profile, const Strip& strip) {
   const bool right = event.s == strip.s.back();
   if (!right && (strip.half || event.s != strip.s.front())) return std::nullopt;
   Strip touched = strip;
   (right ? touched.on.back() : touched.on.front()) = chain::Seat{event.obstacle};
+  if (approach(profile, end_of(profile, right), event.obstacle) < nearly_level)
+    return moved_inward(touched, right);
   return touched.successor();
 }
 
@@ -171,19 +197,7 @@ std::vector<Successor> touches_both(const Profile& profile, const Strip& strip) 
 }
 
 std::vector<Successor> touch_leaves_end(const ContactEvent& event, const Strip& strip) {
-  constexpr double length = 0.05;  // of the tail that begins
-  const bool right = event.place != 0;
-  Strip next = strip;
-  chain::Seat& end = right ? next.on.back() : next.on.front();
-  const chain::Seat plate = end;
-  end = {};
-  const int tail = right ? static_cast<int>(strip.parts.size()) - 1 : 0;
-  if (right)
-    next.split(tail, strip.s.back() - length, Stretch::gap, Stretch::tail, plate);
-  else
-    next.split(tail, strip.s.front() + length, Stretch::tail, Stretch::gap, plate);
-  next.parts[right ? tail + 1 : tail].fresh = true;
-  return {next.successor()};
+  return {moved_inward(strip, event.place != 0)};
 }
 
 std::optional<Successor> touch_reaches_end(int tail, const Profile& profile, const Strip& strip) {
@@ -193,10 +207,15 @@ std::optional<Successor> touch_reaches_end(int tail, const Profile& profile, con
   if (profile.ends_held || strip.half || last < 1 || plate.strand != 0 || plate.flat >= 0 ||
       !is_plate(profile.obstacles, plate.obstacle) || strip.is_line(right ? last - 1 : 1))
     return std::nullopt;
+  const chain::Contact* here = profile.contact_at(touch);
+  const double pull = profile.pieces[tail].n.col(0).norm();
   Strip next = strip;
   next.erase(tail, touch);
   (right ? next.parts.back() : next.parts.front()).kind = Stretch::tail;
-  (right ? next.on.back() : next.on.front()) = plate;
+  if (here && here->force < nearly_level * pull)
+    float_where_one_is_left(profile, next);
+  else
+    (right ? next.on.back() : next.on.front()) = plate;
   return next.successor();
 }
 

@@ -34,13 +34,15 @@ void centre_between_plates(chain::Profile& profile);
 /// Is a joint of the strip an end of the rod?
 bool is_end(const Strip& strip, int joint);
 
-/// An end that reaches a plate touches it.
-std::optional<Successor> end_touches(const ContactEvent& event, const Strip& strip);
+/// An end that reaches a plate touches it; where it is level there the tail beside it does.
+std::optional<Successor> end_touches(const ContactEvent& event, const chain::Profile& profile,
+                                     const Strip& strip);
 /// A floating rod has no room left: what is highest and what is lowest touch the plates. Empty where that lies on a line.
 std::vector<Successor> touches_both(const chain::Profile& profile, const Strip& strip);
 /// An end that touches a plate lies level there: the touch moves inward, what is beyond lies flat in the plate.
 std::vector<Successor> touch_leaves_end(const ContactEvent& event, const Strip& strip);
-/// A touch of a plate has reached the end of the rod, which touches now. Nothing for other tails.
+/// A touch of a plate has reached the end of the rod, which touches now, or lifts off where hardly anything presses it on. Nothing
+/// for other tails.
 std::optional<Successor> touch_reaches_end(int tail, const chain::Profile& profile, const Strip& strip);
 /// Nothing but plates holds the rod along the axis, and one alone does not push it: it floats again.
 void float_where_one_is_left(const chain::Profile& profile, Strip& strip);

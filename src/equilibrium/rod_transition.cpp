@@ -34,7 +34,10 @@ std::optional<std::string> vanishing_with(const chain::Profile& shape, const Top
   };
   for (const ContactEvent& event : contact_events(shape, topology)) {
     if (event.kind == Kind::curvature && touches_there(event)) return event.name();
-    if (event.kind == Kind::slope && std::abs(event.s - s) < 10.0 * least) return event.name();
+    const bool at_end = event.s == shape.begin() || event.s == shape.end();
+    if ((event.kind == Kind::slope || (event.kind == Kind::graze && at_end)) &&
+        std::abs(event.s - s) < 10.0 * least)
+      return event.name();
     const bool unpressed = event.kind == Kind::buckling && shape.pieces[event.place].buckling;
     if (event.kind != Kind::pressure && !unpressed) continue;
     const Eigen::VectorXd& places = shape.pieces[event.place].s;
