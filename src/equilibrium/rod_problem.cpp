@@ -249,7 +249,8 @@ const chain::Chain& RodProblem::factored(const Vector& x, const Vector& p) {
 }
 
 Vector RodProblem::parameter_derivative(const Vector& x, const Vector& p, Eigen::Index k) {
-  if (fields_[k]) return continuation::Problem::parameter_derivative(x, p, k);
+  const bool moves = keys_[static_cast<std::size_t>(k)] == "plate.2.height";  // what the chain stands beside
+  if (fields_[k] || moves) return continuation::Problem::parameter_derivative(x, p, k);
   // Other values of this parameter build other arcs: the factorisation at hand must outlive them.
   RodProblem beside(scene_at(p), spatial_, topology_, meshes_, keys_);
   return beside.continuation::Problem::parameter_derivative(x, p, k);

@@ -35,12 +35,17 @@ void check_room(const Document& document, const Scene& scene) {
                fmt::format("must be \"{}\": of two plates one is above the rod and one below",
                            first.side == PlateSide::above ? "below" : "above"));
   const bool above = first.side == PlateSide::above;
+  // Where a thick rod passes itself two of its strands are between the plates.
+  const bool crosses = scene.strand_radius() > 0.0 && (scene.load.angle >= 2.0 * M_PI || scene.knot.tied());
+  const double room = crosses ? 2.0 * scene.rod_radius : 0.0;
+  const double bound = above ? first.height - room : first.height + room;
   const auto check = [&](const std::string& key, double height) {
-    if (above ? height < first.height : height > first.height) return;
+    if (above ? height < bound : height > bound) return;
     refuse_for(document, key,
-               fmt::format("must be {} {}, the height of the first plate: no room would be left between the "
-                           "two",
-                           above ? "<" : ">", number_text(first.height)));
+               fmt::format("must be {} {}, {} the height of the first plate{}: no room would be left between "
+                           "the two",
+                           above ? "<" : ">", number_text(bound), crosses ? "2 rod.radius off" : "which is",
+                           crosses ? ", for strands that pass each other" : ""));
   };
   check("plate.2.height", second.height);
   if (!starts_in(scene, "plate.2.height")) return;
