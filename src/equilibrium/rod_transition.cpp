@@ -233,6 +233,9 @@ std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const 
         if (meets) name = new_touch_force(next.topology);
         const auto found = locate_from_beyond(exact, at, name);
         if (found) transition.precision = *found, transition.vanishes = *name;
+        // A touch that carries next to nothing has reached the rod's end, which lifts off a little further on.
+        if (found && name->starts_with("graze"))
+          transition.precision = std::max(*found, std::abs(exact.p(0) - guess.p(0)));
         return found && holds(exact);
       }))
     return exact;

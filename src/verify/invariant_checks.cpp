@@ -44,8 +44,8 @@ std::optional<Vector3d> along_all(const std::vector<scene::Wall>& walls) {
 /// What plates push the rod with at a joint; its ends' pushes are part of the force that they carry.
 Vector3d push_of_plate(const equilibrium::JointRecord& joint, const Solution& solution,
                        const std::vector<Shape>& shapes) {
-  if (!solution.has_cylinder || joint.obstacle <= 0 || joint.kind != JointKind::touch)
-    return Vector3d::Zero();
+  const bool contact = joint.kind == JointKind::touch || joint.kind == JointKind::edge;
+  if (!solution.has_cylinder || joint.obstacle <= 0 || !contact) return Vector3d::Zero();
   const Shape* shape = shape_of(shapes, joint.obstacle);
   return shape ? Vector3d(joint.force * shape->outward(joint.r, Vector3d::UnitX()))
                : Vector3d(Vector3d::Constant(NAN));

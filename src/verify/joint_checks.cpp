@@ -268,7 +268,7 @@ double push_of_plates(const Solution& solution, const std::vector<Shape>& shapes
   for (std::size_t k = 0; k < solution.joints.size(); ++k) {
     const JointRecord& joint = solution.joints[k];
     const bool end = joint.kind == JointKind::end;
-    if (joint.obstacle <= 0 || (joint.kind != JointKind::touch && !end)) continue;
+    if (joint.obstacle <= 0 || joint.kind == JointKind::strand) continue;
     const Shape* shape = shape_of(shapes, joint.obstacle);
     const Section at =
         k < solution.arcs.size() ? first_section(solution.arcs[k]) : last_section(solution.arcs.back());
