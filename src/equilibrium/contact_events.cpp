@@ -258,10 +258,15 @@ ContactEvent length_event(const Profile& profile, const Topology& topology, cons
   const int line = strands.line_along(i);
   const bool shrinks = line >= 0 && !strands.lines()[line].on_obstacles && line == strands.line_of(i) &&
                        line == strands.line_of(i + 1);
-  const double shortest = piece.stretch == Stretch::tail   ? shortest_tail * stiffest
-                          : shrinks                        ? least_between_touches
-                          : topology.beside_strand(i)      ? least_beside_strand
-                          : between_touches                ? least_between_touches
+  // What lies flat beyond a plate's touch carries nothing, and where it ends is found from the touch at the rod's end.
+  const bool flat_tail = std::any_of(profile.contacts.begin(), profile.contacts.end(), [&](const Contact& c) {
+    return is_touch(c) && c.obstacle >= 0 && is_plate(profile.obstacles, c.obstacle) &&
+           lies_flat(profile, topology, i, c.obstacle);
+  });
+  const double shortest = piece.stretch == Stretch::tail ? flat_tail ? least_length : shortest_tail * stiffest
+                          : shrinks                      ? least_between_touches
+                          : topology.beside_strand(i)    ? least_beside_strand
+                          : between_touches              ? least_between_touches
                           : piece.stretch == Stretch::line ? least_under(profile, i)
                                                            : least_length;
   const double least = shortest * profile.unit_length;

@@ -34,7 +34,9 @@ std::optional<std::string> vanishing_with(const chain::Profile& shape, const Top
   };
   for (const ContactEvent& event : contact_events(shape, topology)) {
     if (event.kind == Kind::curvature && touches_there(event)) return event.name();
-    const bool at_end = event.s == shape.begin() || event.s == shape.end();
+    constexpr double near = 1e-3;
+    const bool at_end = (event.s == shape.begin() || event.s == shape.end()) &&
+                        std::abs(event.value) < near * shape.unit_length;
     if ((event.kind == Kind::slope || (event.kind == Kind::graze && at_end)) &&
         std::abs(event.s - s) < 10.0 * least)
       return event.name();

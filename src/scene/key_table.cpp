@@ -317,7 +317,11 @@ std::vector<Key> load_keys() {
 
 template <std::optional<Plate> Scene::*One>
 Plate& the_plate(Scene& scene) {
-  return scene.*One ? *(scene.*One) : (scene.*One).emplace();
+  if (scene.*One) return *(scene.*One);
+  Plate& made = (scene.*One).emplace();
+  if (One == &Scene::second_plate && scene.plate && scene.plate->side == PlateSide::above)
+    made.side = PlateSide::below;  // on the other side of the rod
+  return made;
 }
 
 /// Keys of one of the two plates. @param names  of its height, outer radius and side

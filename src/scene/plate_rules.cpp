@@ -16,16 +16,19 @@ void check_plates_given(const Document& document) {
           fmt::format("{}: {}: a third plate; must be left out: a rod has one on each side of it, [[plate]] "
                       "twice at most",
                       document.place_of_table(table), table));
-  if (!document.tables.contains("plate.2")) return;
+}
+
+namespace {
+
+/// The second is given beside a first, by its height.
+void check_second_given(const Document& document, const Scene& scene) {
   const bool first = std::any_of(document.entries.begin(), document.entries.end(), [](const Entry& entry) {
     return entry.key.starts_with("plate.") && !entry.key.starts_with("plate.2.");
   });
   if (!first) refuse_for(document, "plate.2.height", "needs a first [plate], with a height of its own");
-  if (!document.find("plate.2.height"))
+  if (!document.find("plate.2.height") && !starts_in(scene, "plate.2.height"))
     refuse_for(document, "plate.2.height", "missing; a second plate needs it");
 }
-
-namespace {
 
 /// Which of two plates must be higher, and that there is room between them, wherever the second one is brought.
 void check_room(const Document& document, const Scene& scene) {
@@ -62,7 +65,9 @@ void check_plates(const Document& document, const Scene& scene) {
       refuse("continuation.parameter", "needs two plates, [[plate]] twice");
     return;
   }
-  if (!scene.has_cylinder) refuse("plate.height", "needs a [cylinder]");
+  if (!scene.has_cylinder)
+    refuse(scene.second_plate ? "plate.2.height" : "plate.height", "needs a [cylinder]");
+  if (scene.second_plate) check_second_given(document, scene);
   constexpr const char* small = "must be >= 1: a smaller plate does not reach the rod on the cylinder";
   if (scene.plate->outer_radius < 1.0) refuse("plate.outer_radius", small);
   if (scene.second_plate && scene.second_plate->outer_radius < 1.0) refuse("plate.2.outer_radius", small);

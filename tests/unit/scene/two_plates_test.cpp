@@ -108,7 +108,13 @@ BOOST_AUTO_TEST_CASE(bad_plates_are_refused) {
   const std::string branch = "[continuation]\nparameter = \"plate.2.height\"\nfrom = -2\nto = 0.6\n";
   BOOST_TEST(
       says(refused_plates(capstan + above + below + branch), {"continuation.to = 0.6", "must be < 0.5"}));
-  BOOST_TEST(says(refused_plates(capstan + above + branch), {"plate.2.height"}));
+  // A branch says where it starts.
+  BOOST_TEST(
+      read_plates(capstan + above + "[continuation]\nparameter = \"plate.2.height\"\nfrom = -2\nto = 0\n")
+          .second_plate->height == -2.0);
+  BOOST_TEST(
+      says(refused_plates(capstan + above + "[continuation]\nparameter = \"plate.2.height\"\nto = 0\n"),
+           {"plate.2.height", "second"}));
   BOOST_TEST(says(refused_plates(capstan + above + below + "[ends]\nkind = \"clamped\"\n"),
                   {"ends.kind = \"clamped\"", "two plates"}));
 }
