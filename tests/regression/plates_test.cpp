@@ -172,6 +172,42 @@ BOOST_AUTO_TEST_CASE(thick_rods_are_squeezed_down_to_two_strands) {
              1.0);  // strands of radius 2/7 in a room of 0.58: 0.0086 are left
 }
 
+BOOST_AUTO_TEST_CASE(a_stored_point_goes_on_in_tension_where_the_plate_was) {
+  const TemporaryFolder folder;
+  const std::string down = (folder / "down").string();
+  const Settings to = {"continuation.to=-1.9"};
+  const Row last = squeezed(asked("continue", shipped_scene("capstan-2pi-two-plates"), to), down).rows.back();
+  const auto [rows, special] =
+      squeezed({"continue", down, last.at("branch") + "-" + last.at("point"), "--set",
+                "continuation.parameter=load.tension", "--set", "continuation.to=0.58"},
+               (folder / "tension").string());
+  for (const Row& row : rows) BOOST_TEST(std::abs(at(row, "z_span") - 1.9) < 1e-9);
+}
+
+BOOST_AUTO_TEST_CASE(a_clove_hitch_is_squeezed_too) {
+  const TemporaryFolder folder;
+  const Settings down = {"load.tension=0.3", "continuation.parameter=plate.2.height", "continuation.from=-3",
+                         "continuation.to=-2.7"};
+  const auto [rows, special] =
+      squeezed(asked("continue", shipped_scene("clove-hitch-plate"), down), (folder / "hitch").string());
+  // Its lowest place is no end: an ordinary touch, where the free one's height says; then a strand lies along the upper plate.
+  BOOST_REQUIRE(special.size() == 2u);
+  BOOST_TEST(std::abs(special[0]["parameter"].get<double>() + at(rows.front(), "z_span")) < 1e-9);
+  BOOST_TEST(rows.back().at("topology").find("touch:3") != std::string::npos);
+  BOOST_TEST(rows.back().at("topology").find("line:2") != std::string::npos);
+  BOOST_TEST(at(rows.back(), "plate_force") > at(rows.back(), "F0"));
+}
+
+BOOST_AUTO_TEST_CASE(a_second_plate_that_ends_is_met_at_its_edge) {
+  const TemporaryFolder folder;
+  const Settings down = {"plate.2.outer_radius=3", "continuation.to=-1.4"};
+  const auto [rows, special] =
+      squeezed(asked("continue", shipped_scene("capstan-2pi-two-plates"), down), (folder / "edge").string());
+  BOOST_REQUIRE(special.size() == 2u);  // the tail rests on the edge, then on the plate
+  BOOST_TEST(special[0]["after"] == "tail touch:4 gap line gap touch:2 tail");
+  BOOST_TEST(special[1]["after"] == "tail touch:3 gap line gap touch:2 tail");
+}
+
 BOOST_AUTO_TEST_CASE(what_two_plates_cannot_be_is_refused_with_key_and_reason) {
   const auto says = [](const std::string& command, const std::string& scene, const Settings& settings,
                        const std::vector<std::string>& words) {
