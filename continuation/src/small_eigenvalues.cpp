@@ -65,14 +65,15 @@ std::optional<SmallEigenvalues> small_eigenvalues(Problem& problem, const Vector
 
 int sign_changes(const SmallEigenvalues& from, const SmallEigenvalues& to) {
   if (from.vectors.rows() != to.vectors.rows()) return 0;
-  constexpr double same =
-      0.8;  // cosine: no two vectors are that close to a third at right angles to each other
+  // Each with one of the other, the nearest first: next to a fold several vectors are nearly parallel.
+  constexpr double same = 0.8;  // cosine
+  Matrix cosines = (to.vectors.transpose() * from.vectors).cwiseAbs();
   int changes = 0;
-  for (Eigen::Index i = 0; i < to.values.size(); ++i) {
-    for (Eigen::Index j = 0; j < from.values.size(); ++j) {
-      const double cosine = std::abs(to.vectors.col(i).dot(from.vectors.col(j)));
-      changes += cosine > same && (to.values[i] < 0.0) != (from.values[j] < 0.0);
-    }
+  Eigen::Index i = 0, j = 0;
+  while (cosines.size() > 0 && cosines.maxCoeff(&i, &j) > same) {
+    changes += (to.values[i] < 0.0) != (from.values[j] < 0.0);
+    cosines.row(i).setZero();
+    cosines.col(j).setZero();
   }
   return changes;
 }

@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "app/commands.hpp"
+#include "app/stored_point.hpp"
 #include "windlass/scene/reader.hpp"
 
 namespace windlass::app {
@@ -40,6 +41,11 @@ void add_branch_command(Command& command, CommonOptions& common, int& status,
       if (words->label.empty())
         throw InputError(words->start +
                          ": is a run folder; say which stored point to restart from (a label)");
+      if (const auto own = setting_of_point(output::read_run(words->start), words->label)) {
+        CommonOptions there = common;
+        there.set.push_back(*own);  // the scene that is written is that of the point
+        request.scene = scene_of_run(words->start, there, true);
+      }
     } else {
       request.scene = scene::read_scene(words->start, common.set);
       if (!words->label.empty())

@@ -32,7 +32,7 @@ int run_plot(const RunRequest& request) {
   options.units = scene.units;
   options.obstacles = obstacle::obstacles_of(scene);
   options.rod_radius = scene.rod_radius;
-  options.plate = scene.plate;
+  options.plates = scene.plates();
   options.folder = request.common.out;
   if (!request.csv.empty()) options.measured = measured_forces(request.csv, scene);
   if (!request.label.empty()) options.points = {request.label};

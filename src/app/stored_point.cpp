@@ -18,6 +18,15 @@ scene::Scene scene_of_point(scene::Scene scene, const output::Run& run, std::siz
   return scene;
 }
 
+std::optional<std::string> setting_of_point(const output::Run& run, const std::string& label) {
+  const std::string& key = run.info.extra_parameter;
+  const auto position = run.points.find(label);
+  if (key.empty() || !position) return std::nullopt;
+  const output::PointStore::Key& at = run.points.keys().at(*position);
+  const auto value = run.row(output::point_name(at.branch, at.point, "")).parameter;
+  return value ? std::optional(key + "=" + scene::number_text(*value)) : std::nullopt;
+}
+
 namespace {
 
 constexpr int unknown = -1;

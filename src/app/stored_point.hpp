@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <span>
+#include <string>
 
 #include "windlass/equilibrium/equilibria.hpp"
 #include "windlass/output/run_folder.hpp"
@@ -11,6 +13,9 @@ namespace windlass::app {
 
 /// The run's scene with the loads, and the parameter that varied, of a stored point.
 scene::Scene scene_of_point(scene::Scene scene, const output::Run& run, std::size_t position);
+
+/// The same for the reader, as KEY=VALUE; nothing where only the loads vary.
+std::optional<std::string> setting_of_point(const output::Run& run, const std::string& label);
 
 /// Lowest eigenvalues, and with `modes` their modes, of a state that can be restarted. @throws as stability::analyse
 equilibrium::Stability spectrum_of(const scene::Scene& scene, const equilibrium::Restart& restart, int count,

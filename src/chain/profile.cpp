@@ -312,6 +312,8 @@ Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod
   out.unit_length = rod.unit_length;
   out.radius = loads.radius;
   out.travelled = chain.travelled(x);
+  out.stands_free = stands_free(rod), out.floats = floats(rod, topology);
+  out.ends_held = rod.strut || rod.guided;
   for (int i = 0; i < chain.link_count(); ++i)
     out.pieces.push_back(sample_link(chain, rod, x, loads, i, topology));
   fill_welds(chain, x, out.pieces);

@@ -77,6 +77,16 @@ std::unique_ptr<Joint> end_joint(const RodKind& rod, const Topology& t, const Ar
   }
   if (closed_form(rod, tail))
     return std::make_unique<planar::FarEnd>(rod.spatial ? 3 : 1, rod.spatial ? 3 : 2);
+  const int joint = arc_side == Side::left ? static_cast<int>(t.stretches.size()) : 0;
+  if (const int plate = t.end_touches(joint); plate > 0) {
+    if (!rod.spatial || rod.guided) throw std::invalid_argument("no such end touches a plate");
+    std::unique_ptr<Joint> frame;
+    if (kind == EndKind::spin_held)
+      frame = std::make_unique<spatial::HeldEnd>();
+    else
+      frame = std::make_unique<spatial::End>(arc_side, kind == EndKind::clamped);
+    return std::make_unique<spatial::EndOnPlate>(arc_side, std::move(frame), rod.obstacles.pointer(plate));
+  }
   if (rod.guided) {
     if (!rod.spatial) throw std::invalid_argument("ends on sliders are computed with the Kirchhoff rod");
     std::unique_ptr<Joint> frame;
@@ -206,7 +216,9 @@ bool any_on_obstacle(const RodKind& rod, const Topology& t, const Condition& con
 
 /// Does the rod touch an obstacle that does not let it move along the axis?
 bool on_plate(const Topology& t) {
-  for (int j = t.half ? 0 : 1; j < static_cast<int>(t.stretches.size()); ++j)
+  const int last = static_cast<int>(t.stretches.size());
+  if (t.end_touches(0) > 0 || t.end_touches(last) > 0) return true;
+  for (int j = t.half ? 0 : 1; j < last; ++j)
     if (t.lies_flat(j) || t.touches_flat(j) || (t.seat(j).strand == 0 && t.pushed_by(j) > 0)) return true;
   return false;
 }
@@ -229,7 +241,7 @@ Chain::Gauges gauges(const RodKind& rod, const Topology& t) {
     g.knot = rod.knotted && !touched && !t.couplings().empty();
     return g;
   }
-  g.height = rod.spatial && rod.travel == Travel::none && !rod.guided && !on_plate(t);
+  g.height = floats(rod, t);
   g.travel = rod.spatial ? rod.travel : Travel::none;
   g.spin = rod.spatial && !rod.holds_an_end() && rod.isotropic_straight();
   g.slide = true;
@@ -237,6 +249,12 @@ Chain::Gauges gauges(const RodKind& rod, const Topology& t) {
 }
 
 }  // namespace
+
+bool stands_free(const RodKind& rod) {
+  return rod.spatial && !rod.strut && rod.travel == Travel::none && !rod.guided;
+}
+
+bool floats(const RodKind& rod, const Topology& topology) { return stands_free(rod) && !on_plate(topology); }
 
 bool Topology::contact() const { return mid_touch || stretches.size() > 1; }
 
@@ -328,6 +346,8 @@ std::string Topology::text() const {
     return obstacle == 0 ? std::string(contact) : std::string(contact) + ":" + std::to_string(obstacle + 1);
   };
   std::string text;
+  const auto end = [&](int joint) { return "end:" + std::to_string(whole.end_touches(joint) + 1); };
+  if (whole.end_touches(0) > 0) text += end(0) + " ";
   for (std::size_t i = 0; i < all.size(); ++i) {
     const int link = static_cast<int>(i);
     if (i > 0 && strands.inside_line(link)) continue;  // of a line its ends are named
@@ -342,6 +362,7 @@ std::string Topology::text() const {
     else
       text += all[i] == Stretch::line ? named(word(all[i]), i) : word(all[i]);
   }
+  if (const int last = static_cast<int>(all.size()); whole.end_touches(last) > 0) text += " " + end(last);
   return text;
 }
 
@@ -381,7 +402,8 @@ std::unique_ptr<Chain> build_chain(const RodKind& rod, const Topology& t,
                               : make_arc(rod, all[i], t.obstacle(i), mesh_of(i), !leftward);
     link.role = word(all[i]);
     if (strands.welded(i)) link.weld = true, link.arc = std::make_unique<rod::WeldArc>(*link.arc);
-    if (all[i] == Stretch::tail && !rod.strut && !rod.guided) link.pull = leftward ? -1 : 1;
+    const bool held = rod.strut || rod.guided || t.end_touches(leftward ? 0 : count) > 0;
+    if (all[i] == Stretch::tail && !held) link.pull = leftward ? -1 : 1;
     links.push_back(std::move(link));
   }
   auto chain = std::make_unique<Chain>(std::move(joints), std::move(fixed), std::move(links), gauges(rod, t),

@@ -43,16 +43,13 @@ SmallMatrix flat_columns(const SmallMatrix& of_edge) {
 }  // namespace
 
 Stopped::Stopped(SurfacePointer line, SurfacePointer plate, bool in_the_middle)
-    : line_(std::move(line)),
-      plate_(std::move(plate)),
-      height_(height_of(*plate_)),
-      in_the_middle_(in_the_middle) {}
+    : line_(std::move(line)), plate_(std::move(plate)), in_the_middle_(in_the_middle) {}
 
 Attachment Stopped::attach(Side, const double* w, const Loads&) const {
   Attachment at = Attachment::zero(2, 2, 2, tangent());
   at.q << w[1], w[2];
   at.dq.rightCols(2).setIdentity();
-  at.x << w[0], height_;
+  at.x << w[0], height();
   at.dx(0, 0) = 1.0;
   return at;
 }
@@ -65,7 +62,7 @@ Joint::Location Stopped::location(const double* w, const SmallVector&, const Sma
   return c;
 }
 
-Vector2d Stopped::on_surface(const double* w) const { return on_plate(*line_, *plate_, w[0], height_); }
+Vector2d Stopped::on_surface(const double* w) const { return on_plate(*line_, *plate_, w[0], height()); }
 
 void Stopped::adopt(const Place& place, double* w) const {
   const Vector2d flat = flat_coordinates(line_, place);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "candidates.hpp"
+#include "end_events.hpp"
 #include "line_touches.hpp"
 #include "plate_successors.hpp"
 #include "strand_line_events.hpp"
@@ -104,6 +105,11 @@ std::vector<Successor> after_length(int link, const Strip& strip) {
 std::vector<Successor> after_force(const ContactEvent& event, Strip strip, const Profile& profile,
                                    const Topology& topology) {
   const int j = event.place;
+  if (is_end(strip, j)) {
+    strip.on[j] = {};
+    float_where_one_is_left(profile, strip);
+    return {strip.successor()};
+  }
   if (strip.mid_touch && j == 0) {
     strip.mid_touch = false;
     return {strip.successor()};
@@ -113,6 +119,7 @@ std::vector<Successor> after_force(const ContactEvent& event, Strip strip, const
   constexpr double lifted =
       1e-6;  // with the last force the rod leaves the cylinder, from mirror images at once
   strip.merge(j - 1, j, joined(before, after));
+  float_where_one_is_left(profile, strip);
   Successor next = strip.successor();
   next.nothing_left |= chain::total_contact_force(profile, topology) < lifted;
   return {next};
@@ -186,6 +193,7 @@ std::vector<Successor> after_curvature(const ContactEvent& event, const Strip& s
 }
 
 std::vector<Successor> after_graze(const ContactEvent& event, const Strip& strip, const Profile& profile) {
+  if (auto next = end_touches(event, profile, strip)) return {*next};
   const int i = event.place;
   Strip touched = strip;
   if (!strip.mid_touch && strip.starts_at_mid(i) && std::abs(event.s) < 1e-9) {
@@ -219,6 +227,11 @@ Successor end_of_rod(const Strip& strip) {
 Successor past_the_rim(const ContactEvent& event, Strip strip, const Profile& profile) {
   const int j = event.place;
   chain::Seat& seat = strip.on[j];
+  if (is_end(strip, j)) {  // the end of the rod is beside the plate now: it is not pushed any longer
+    Successor next = strip.successor();
+    next.at_rim = true;
+    return next;
+  }
   const auto rim = obstacle::as_rim(profile.obstacles.pointer(seat.obstacle));
   const chain::Contact* here = profile.contact_at(j);
   const bool touch = seat.strand == 0 && seat.flat < 0 && !strip.is_line(j - 1) && !strip.is_line(j);
@@ -344,7 +357,10 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
         return out;
       }
     case Kind::length:
-      if (profile.pieces[event.place].stretch == Stretch::tail) return {end_of_rod(strip)};
+      if (profile.pieces[event.place].stretch == Stretch::tail) {
+        if (const auto next = touch_reaches_end(event.place, profile, strip)) return {*next};
+        return {end_of_rod(strip)};
+      }
       if (auto flat = flat_line_begins_or_ends(event.place, profile, strip); !flat.empty()) return flat;
       if (const auto anew = laid_anew_at(profile, chain::Strands(topology), event.place);
           anew && event.redrawn)
@@ -384,6 +400,10 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
       return {bowed(event.place, strip)};
     case Kind::rim:
       return {past_the_rim(event, strip, profile)};
+    case Kind::slope:
+      return touch_leaves_end(event, strip);
+    case Kind::room:
+      return touches_both(profile, strip);
     case Kind::reaction:
       return strand_lifts(event.place, strip);
     case Kind::approach:

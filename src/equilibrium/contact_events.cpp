@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "dense_samples.hpp"
+#include "end_events.hpp"
 #include "line_pressure.hpp"
 #include "rim_events.hpp"
 #include "strand_line_events.hpp"
@@ -116,7 +117,8 @@ bool before_flat_tail(const Profile& profile, const Topology& topology, const Co
 
 /// Least local minimum of the gap to an obstacle inside a free arc. Next to a contact the gap is flat and its samples are
 /// rounding; a minimum must stand out by more than that.
-ContactEvent graze(const Profile& profile, int obstacle, int link, bool starts_at_mid) {
+ContactEvent graze(const Profile& profile, const Topology& topology, int obstacle, int link,
+                   bool starts_at_mid) {
   constexpr double noise = 1e-11;
   const Piece& piece = profile.pieces[link];
   const obstacle::Surface& surface = profile.obstacles[obstacle];
@@ -144,6 +146,8 @@ ContactEvent graze(const Profile& profile, int obstacle, int link, bool starts_a
       continue;  // beside the plate
     if (least && least->value < event.value) event = at(least->value, least->s);
   }
+  if (const auto end = graze_at_end(profile, topology, obstacle, link); end && end->value < event.value)
+    event = at(end->value, end->s);
   for (const Contact& c : profile.contacts) {
     constexpr double nearly_gone = 1e-3;  // of g'', over the unit of length
     const bool ahead = c.joint == link, behind = c.joint == link + 1;
@@ -254,10 +258,15 @@ ContactEvent length_event(const Profile& profile, const Topology& topology, cons
   const int line = strands.line_along(i);
   const bool shrinks = line >= 0 && !strands.lines()[line].on_obstacles && line == strands.line_of(i) &&
                        line == strands.line_of(i + 1);
-  const double shortest = piece.stretch == Stretch::tail   ? shortest_tail * stiffest
-                          : shrinks                        ? least_between_touches
-                          : topology.beside_strand(i)      ? least_beside_strand
-                          : between_touches                ? least_between_touches
+  // What lies flat beyond a plate's touch carries nothing, and where it ends is found from the touch at the rod's end.
+  const bool flat_tail = std::any_of(profile.contacts.begin(), profile.contacts.end(), [&](const Contact& c) {
+    return is_touch(c) && c.obstacle >= 0 && is_plate(profile.obstacles, c.obstacle) &&
+           lies_flat(profile, topology, i, c.obstacle);
+  });
+  const double shortest = piece.stretch == Stretch::tail ? flat_tail ? least_length : shortest_tail * stiffest
+                          : shrinks                      ? least_between_touches
+                          : topology.beside_strand(i)    ? least_beside_strand
+                          : between_touches              ? least_between_touches
                           : piece.stretch == Stretch::line ? least_under(profile, i)
                                                            : least_length;
   const double least = shortest * profile.unit_length;
@@ -362,8 +371,9 @@ void heed_first_what_vanishes(std::vector<ContactEvent>& events, const Topology&
 }  // namespace
 
 std::string ContactEvent::name() const {
-  static const char* const words[] = {"pressure", "suction",  "length",   "force", "curvature", "graze",
-                                      "buckling", "approach", "reaction", "rim",   "dip"};
+  static const char* const words[] = {"pressure", "suction",  "length",   "force",    "curvature",
+                                      "graze",    "buckling", "approach", "reaction", "rim",
+                                      "dip",      "slope",    "room"};
   const std::string name =
       std::string(words[static_cast<int>(kind)]) + " " + std::to_string(named < 0 ? place : named);
   if (kind == Kind::approach)
@@ -389,6 +399,7 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
   std::vector<ContactEvent> events;
   const chain::Strands strands(topology);
   const int count = static_cast<int>(profile.pieces.size());
+  const std::optional<ContactEvent> room = room_event(profile);
   for (int i = 0; i < count; ++i) {
     const Piece& piece = profile.pieces[i];
     const bool at_mid = topology.half && i == 0 && !topology.mid_touch;
@@ -407,8 +418,12 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
       events.push_back({Kind::buckling, i, piece.buckling.value_or(far), piece.s(0)});
     else
       for (int o = 0; o < profile.obstacles.size(); ++o)
-        if (!lies_flat(profile, topology, i, o)) events.push_back(graze(profile, o, i, at_mid));
+        if (!lies_flat(profile, topology, i, o) && !(room && is_plate(profile.obstacles, o)))
+          events.push_back(graze(profile, topology, o, i, at_mid));
   }
+  if (room) events.push_back(*room);
+  const std::vector<ContactEvent> ends = end_events(profile, topology);
+  events.insert(events.end(), ends.begin(), ends.end());
   const std::vector<chain::Coupling> couplings = topology.couplings();
   for (const Contact& c : profile.contacts) {
     if (c.coupling >= 0 && c.joint != couplings[c.coupling].first) continue;  // one event for the two joints

@@ -7,6 +7,7 @@
 #include <continuation/diagram.hpp>
 
 #include "attempt.hpp"
+#include "between_plates.hpp"
 #include "entry.hpp"
 #include "friction_couple.hpp"
 #include "harvest.hpp"
@@ -65,6 +66,7 @@ std::optional<Hold> held_at(const Piece& tail, bool leftward, double slope, cons
 /// The rod round a cylinder that stands, and no plate.
 scene::Scene standing(scene::Scene scene) {
   scene.plate.reset();
+  scene.second_plate.reset();
   scene.motion = {};
   return scene;
 }
@@ -324,6 +326,12 @@ Started coil_on_plate(const scene::Scene& scene, const std::vector<std::string>&
   if (scene.friction_arm() > 0.0)
     throw NoEquilibrium("there is no flat coil: the moment of the friction twists its tails (" +
                         couple_not_carried() + ")");
+  if (scene.second_plate) {
+    std::string failure;
+    const Started coil = coil_on_plate(with_one_plate(scene), {"load.tension"});
+    if (auto found = between_plates(coil, scene, keys, failure)) return *found;
+    throw NoEquilibrium("the coil on its plate was not found with a second plate: " + failure);
+  }
   if (!(scene.strand_radius() > 0.0)) return flat_on_plate(scene, keys);
   std::string failure;
   // Thin tails cross on lines where the tension is high, and hang on touches where it is low.
@@ -337,8 +345,29 @@ Started coil_on_plate(const scene::Scene& scene, const std::vector<std::string>&
   throw NoEquilibrium("no coil of this thickness was found on the plate: " + failure);
 }
 
+namespace {
+
+/// States beside one plate that the second one, brought to where it is, leads to.
+std::vector<Started> dragged_between_plates(const scene::Scene& scene, const std::vector<std::string>& keys,
+                                            std::string& searched) {
+  std::vector<Started> out;
+  std::string lost;
+  for (const Started& state : dragged_states(with_one_plate(scene), {"load.tension"}, searched)) {
+    std::string failure;
+    if (auto found = between_plates(state, scene, keys, failure))
+      out.push_back(*found);
+    else
+      lost += "; one was not found with the second plate: " + failure;
+  }
+  searched += fmt::format("; {} of them with the second plate", out.size()) + lost;
+  return out;
+}
+
+}  // namespace
+
 std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector<std::string>& keys,
                                     std::string& searched) {
+  if (scene.second_plate) return dragged_between_plates(scene, keys, searched);
   if (scene.friction_arm() > 0.0) return dragged_with_couple(scene, keys, searched);
   if (scene.ends.guided()) return dragged_between_sliders(scene, keys, searched);
   if (scene.rod.extensible) return dragged_with_stretch(scene, keys, searched);

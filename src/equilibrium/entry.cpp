@@ -44,8 +44,8 @@ bool holds(const Entry& entry) {
 
 const ContactEvent* most_violated(const std::vector<ContactEvent>& events, double unit, bool redrawn) {
   using Kind = ContactEvent::Kind;
-  constexpr Kind order[] = {Kind::length,   Kind::approach,  Kind::graze, Kind::force,
-                            Kind::pressure, Kind::curvature, Kind::dip,   Kind::reaction};
+  constexpr Kind order[] = {Kind::length, Kind::approach, Kind::graze,     Kind::room, Kind::slope,
+                            Kind::force,  Kind::pressure, Kind::curvature, Kind::dip,  Kind::reaction};
   constexpr double rounding = 1e-9, near = 0.1;
   const auto violated = [&](const ContactEvent& event) {
     return !event.passes && event.value < -rounding && (event.redrawn || !redrawn);

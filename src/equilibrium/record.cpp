@@ -170,6 +170,15 @@ void merge_vanishing(std::vector<ArcRecord>& arcs, std::vector<Placed>& contacts
   }
 }
 
+/// The force of a plate on an end that touches it: what the rod carries there besides its pull, which is normal to the axis.
+void push_end(JointRecord& end, const ArcRecord& arc, bool right, int plate, const obstacle::Set& obstacles) {
+  if (plate <= 0) return;
+  const Vector3d n = right ? Vector3d(arc.n.rightCols<1>()) : Vector3d(-arc.n.col(0));
+  end.obstacle = plate;
+  end.normal = obstacles[plate].normal(end.r);
+  end.force = n.dot(end.normal);
+}
+
 /// Arcs and joints of the whole rod from −L/2 to L/2.
 void assemble(const chain::Profile& shape, const chain::Profile& whole, const Topology& topology,
               bool infinite, Solution& out) {
@@ -194,6 +203,10 @@ void assemble(const chain::Profile& shape, const chain::Profile& whole, const To
     out.self_force += 0.5 * contact.record.strand_force;
   }
   out.joints.push_back(end_record(arcs.back(), true, infinite));
+  const Topology full = chain::unfolded(topology);
+  push_end(out.joints.front(), arcs.front(), false, full.end_touches(0), shape.obstacles);
+  push_end(out.joints.back(), arcs.back(), true, full.end_touches(static_cast<int>(full.stretches.size())),
+           shape.obstacles);
   out.arcs = std::move(arcs);
 }
 
@@ -269,7 +282,8 @@ void measure_invariants(Solution& out, const chain::RodKind& kind, const contact
     if (arc.kind == ArcKind::line) balance += arc.n.col(arc.n.cols() - 1) - arc.n.col(0);
   }
   for (const JointRecord& joint : out.joints) {
-    balance -= joint.force * joint.normal;
+    if (joint.kind != JointKind::end)
+      balance -= joint.force * joint.normal;  // its force is the rod's own there
     balance -= joint.holding * joint.holding_direction();
   }
   if (kind.strut) return;

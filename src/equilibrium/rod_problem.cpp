@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "dense_samples.hpp"
+#include "end_events.hpp"
 #include "friction_couple.hpp"
 #include "stretched_drag.hpp"
 #include "windlass/chain/singular_matrix.hpp"
@@ -126,6 +127,10 @@ const char* RodProblem::missing_on(const Topology& topology) const {
   const bool thickens = std::find(keys_.begin(), keys_.end(), "rod.radius") != keys_.end();
   const bool couple = asked(&Loads::arm) || (thickens && scene_.friction_has_couple());
   if (couple && !(spatial_ && carries_couple(topology))) return "cylinder.friction_couple";
+  for (int j = 0; j < static_cast<int>(topology.on.size()); ++j)
+    if (obstacle::plate_at(scene_, topology.seat(j).flat) == 2 ||
+        obstacle::plate_at(scene_, topology.seat(j).stop) == 2)
+      return "plate.2.height";
   if (thickens && touches_rim(rod_, topology)) return "plate.outer_radius";
   if (rod_.travel != chain::Travel::none && asked(&Loads::compliance) &&
       !carries_stretch(topology, rod_.travel))
@@ -135,6 +140,7 @@ const char* RodProblem::missing_on(const Topology& topology) const {
 
 void RodProblem::rebuild() {
   rod_ = rod_of(scene_, spatial_);
+  if (spatial_ && scene_.second_plate) rod_.obstacles = obstacle::obstacles_of(scene_, &second_plate_);
   const auto varies = [&](const char* key) {
     return std::find(keys_.begin(), keys_.end(), key) != keys_.end();
   };
@@ -144,9 +150,12 @@ void RodProblem::rebuild() {
   if (varies("rod.weight_z")) rod_.weighs[2] = true;
   base_ = loads_of(scene_);
   if (const char* key = missing_on(topology_))
-    throw NoEquilibrium(key == std::string_view("rod.extensible")       ? stretch_not_carried()
-                        : key == std::string_view("plate.outer_radius") ? rim_not_thickened()
-                                                                        : couple_not_carried());
+    throw NoEquilibrium(
+        key == std::string_view("rod.extensible") ? stretch_not_carried()
+        : key == std::string_view("plate.2.height")
+            ? "plate.2.height: the second plate and the cylinder cannot hold the rod at one place"
+        : key == std::string_view("plate.outer_radius") ? rim_not_thickened()
+                                                        : couple_not_carried());
   chain_ = chain::build_chain(rod_, topology_, meshes_);
   chain_->let_slide(slides_);
   finer_.reset();
@@ -169,6 +178,7 @@ Loads RodProblem::loads(const Vector& p) {
     const bool arcs = rod.stiffness != rod_.stiffness || rod.natural != rod_.natural;
     base_ = loads_of(scene_);
     if (arcs) rebuild();
+    if (scene_.second_plate) second_plate_.move_to(scene_.second_plate->height);
   }
   Loads loads = base_;
   for (std::size_t k = 0; k < keys_.size(); ++k)
@@ -239,7 +249,8 @@ const chain::Chain& RodProblem::factored(const Vector& x, const Vector& p) {
 }
 
 Vector RodProblem::parameter_derivative(const Vector& x, const Vector& p, Eigen::Index k) {
-  if (fields_[k]) return continuation::Problem::parameter_derivative(x, p, k);
+  const bool moves = keys_[static_cast<std::size_t>(k)] == "plate.2.height";  // what the chain stands beside
+  if (fields_[k] || moves) return continuation::Problem::parameter_derivative(x, p, k);
   // Other values of this parameter build other arcs: the factorisation at hand must outlive them.
   RodProblem beside(scene_at(p), spatial_, topology_, meshes_, keys_);
   return beside.continuation::Problem::parameter_derivative(x, p, k);
@@ -264,7 +275,10 @@ Vector RodProblem::dual(const Vector& a) const {
 
 chain::Profile RodProblem::profile(const Vector& x, const Vector& p) {
   const Loads at = loads(p);  // may rebuild the chain
-  return chain::profile(*chain_, topology_, rod_, x, at);
+  chain::Profile out = chain::profile(*chain_, topology_, rod_, x, at);
+  if (second_plate_.face) out.obstacles = obstacle::obstacles_of(scene_);  // which do not move
+  centre_between_plates(out);
+  return out;
 }
 
 std::vector<double> RodProblem::joint_places(const Vector& x, const Vector& p, const chain::Profile& shape) {

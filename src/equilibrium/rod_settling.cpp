@@ -43,7 +43,17 @@ bool RodProblem::slides_freely(const Vector& x, const Vector& p) {
   if (rod_.strut || dragged() || rod_.infinite || !(half || chain_->holds_slide())) return false;
   const Loads at = loads(p);
   const int last = chain_->link_count() - 1;
-  const double tail = std::min(chain_->length(x, at, half ? last : 0), chain_->length(x, at, last));
+  // Plates, which push across the rod, let it slide: tails go on past their touches.
+  const auto plate = [&](int joint) {
+    return topology_.seat(joint).strand == 0 && topology_.pushed_by(joint) > 0;
+  };
+  const auto tail_from = [&](int link, int way) {
+    double length = chain_->length(x, at, link);
+    for (int i = link + way; i >= 0 && i <= last && plate(way > 0 ? i : i + 1); i += way)
+      length += chain_->length(x, at, i);
+    return length;
+  };
+  const double tail = std::min(tail_from(half ? last : 0, half ? -1 : 1), tail_from(last, -1));
   const double resistance = std::exp(-2.0 * std::sqrt(at.tension / rod_.bending_stiffness) * tail);
   return resistance > (slides_ ? lost : resolved);
 }

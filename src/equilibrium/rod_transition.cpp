@@ -34,6 +34,12 @@ std::optional<std::string> vanishing_with(const chain::Profile& shape, const Top
   };
   for (const ContactEvent& event : contact_events(shape, topology)) {
     if (event.kind == Kind::curvature && touches_there(event)) return event.name();
+    constexpr double near = 1e-3;
+    const bool at_end = (event.s == shape.begin() || event.s == shape.end()) &&
+                        std::abs(event.value) < near * shape.unit_length;
+    if ((event.kind == Kind::slope || (event.kind == Kind::graze && at_end)) &&
+        std::abs(event.s - s) < 10.0 * least)
+      return event.name();
     const bool unpressed = event.kind == Kind::buckling && shape.pieces[event.place].buckling;
     if (event.kind != Kind::pressure && !unpressed) continue;
     const Eigen::VectorXd& places = shape.pieces[event.place].s;
@@ -229,6 +235,9 @@ std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const 
         if (meets) name = new_touch_force(next.topology);
         const auto found = locate_from_beyond(exact, at, name);
         if (found) transition.precision = *found, transition.vanishes = *name;
+        // A touch that carries next to nothing has reached the rod's end, which lifts off a little further on.
+        if (found && name->starts_with("graze"))
+          transition.precision = std::max(*found, std::abs(exact.p(0) - guess.p(0)));
         return found && holds(exact);
       }))
     return exact;
@@ -278,9 +287,11 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
         end.after = next.topology.text() + " (" + rim_not_thickened() + ")";
         return end;
       }
-      beyond =
-          fmt::format("{} ({} is not built for {})", next.topology.text(), key,
-                      key == std::string_view("rod.extensible") ? "lines that friction stretches" : "lines");
+      beyond = fmt::format("{} ({} is not built for {})", next.topology.text(), key,
+                           key == std::string_view("rod.extensible") ? "lines that friction stretches"
+                           : key == std::string_view("plate.2.height")
+                               ? "places where the cylinder holds the rod, too"
+                               : "lines");
       continue;
     }
     continuation::Transition transition;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "attempt.hpp"
+#include "between_plates.hpp"
 #include "dragged_start.hpp"
 #include "knot_on_plate.hpp"
 #include "windlass/knot/start_curve.hpp"
@@ -155,6 +156,11 @@ Started cold_start(const scene::Scene& asked, bool spatial, bool half, const std
   const scene::Scene scene = scene::natural(asked);
   spatial = spatial || scene.ends.guided();
   std::string failure;
+  if (spatial && scene.second_plate && (scene.knot.tied() || !scene.slides())) {
+    const Started one = cold_start(with_one_plate(scene), spatial, false, {"load.tension"});
+    if (auto found = between_plates(one, scene, keys, failure)) return *found;
+    throw NoEquilibrium("no equilibrium was found with the second plate: " + failure);
+  }
   if (scene.knot.tied() && scene.plate) {
     if (auto knot = knot_on_plate(scene, keys, failure)) return *knot;
     throw NoEquilibrium("no equilibrium of the knot on its plate was found: " + failure);

@@ -23,9 +23,11 @@ Successor Strip::successor() const {
   out.topology.half = half;
   out.topology.mid_touch = mid_touch;
   out.topology.symmetry = symmetry;
-  std::vector<chain::Seat> contacts = on;  // the ends, and the section where a half chain begins, lie on none
-  if (!mid_touch && !(half && parts.front().kind == Stretch::line)) contacts.front() = {};
-  contacts.back() = {};
+  std::vector<chain::Seat> contacts =
+      on;  // the ends touch nothing but plates; nor does a section of a half chain
+  if (half ? !mid_touch && parts.front().kind != Stretch::line : contacts.front().obstacle <= 0)
+    contacts.front() = {};
+  if (contacts.back().obstacle <= 0) contacts.back() = {};
   for (int j = 1; j < static_cast<int>(parts.size()); ++j)
     if (is_line(j - 1) && !is_line(j))
       contacts[j].flat = -1;  // of a line its beginning says that it lies flat

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "candidates.hpp"
+#include "end_events.hpp"
 #include "line_touches.hpp"
 #include "strand_successors.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
@@ -17,7 +18,8 @@ namespace {
 
 /// The same with the change made on both sides of s = 0: the side that changed and its mirror image.
 /// @param links  of the old chain
-Successor mirrored(const Successor& next, bool right_changed, int links) {
+Successor mirrored(const Successor& next, bool right_changed, const Profile& profile) {
+  const int links = static_cast<int>(profile.pieces.size());
   // Bounds and stretches of the side that changed, from the middle outward.
   const int count = static_cast<int>(next.topology.stretches.size());
   const auto bound = [&](int k) { return right_changed ? next.s[k] : -next.s[count - k]; };
@@ -47,7 +49,10 @@ Successor mirrored(const Successor& next, bool right_changed, int links) {
   for (int k = count; k-- > first;) add(k, true);
   const auto add_bound = [&](double s, int k) {
     out.s.push_back(s);
-    if (!next.topology.on.empty()) out.topology.on.push_back(seat(k, s < 0.0));
+    if (next.topology.on.empty()) return;
+    out.topology.on.push_back(seat(k, s < 0.0));
+    if (s != 0.0 && (s > 0.0) != right_changed)
+      out.topology.on.back().obstacle = image_of(profile, out.topology.on.back().obstacle);
   };
   for (int k = count; k >= first; --k) add_bound(-bound(k), k);
   if (touches) {
@@ -91,20 +96,23 @@ bool parted(const Successor& next) {
   return false;
 }
 
-bool symmetric(const Topology& topology, const std::vector<double>& s) {
+bool symmetric(const Topology& topology, const std::vector<double>& s, const Profile& profile) {
   constexpr double same = 1e-4;  // short gaps amplify rounding; what is built on it is solved and checked
   if (topology.half ||
       !std::equal(topology.stretches.begin(), topology.stretches.end(), topology.stretches.rbegin()))
     return false;
   const int last = static_cast<int>(s.size()) - 1;
   for (int j = 0; j <= last; ++j)
-    if (!(std::abs(s[j] + s[last - j]) < same) || topology.obstacle(j) != topology.obstacle(last - j))
+    if (!(std::abs(s[j] + s[last - j]) < same) ||
+        topology.obstacle(j) != image_of(profile, topology.obstacle(last - j)))
       return false;
   return true;
 }
 
 /// Is it its own mirror image?
-bool is_symmetric(const Successor& next) { return symmetric(next.topology, next.s); }
+bool is_symmetric(const Successor& next, const Profile& profile) {
+  return symmetric(next.topology, next.s, profile);
+}
 
 /// Does a strand press where a line leaves the plate? No joint is that.
 bool presses_where_line_lifts_off(const Topology& topology) {
@@ -121,8 +129,8 @@ std::vector<Successor> successors(const ContactEvent& event, const Profile& prof
   for (Successor& next : one_sided(event, profile, topology, s)) {
     if (parted(next)) next = with_touches(skeleton_of(Strip(next)).strip.successor(), profile, topology);
     // Of a symmetric state mirror images go together.
-    if (symmetric(topology, s) && !is_symmetric(next))
-      out.push_back(mirrored(next, event.s > 0.0, static_cast<int>(profile.pieces.size())));
+    if (symmetric(topology, s, profile) && !is_symmetric(next, profile))
+      out.push_back(mirrored(next, event.s > 0.0, profile));
     out.push_back(std::move(next));
   }
   for (Successor& next : out) {

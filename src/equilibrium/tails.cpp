@@ -32,7 +32,8 @@ void choose_tails(std::vector<ArcMesh>& meshes, const Topology& topology, const 
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     const bool leftward = i == 0 && !topology.half, tail = kinds[i] == Stretch::tail;
     const bool leaves_line = tail && kinds.size() > 1 && kinds[leftward ? 1 : i - 1] == Stretch::line;
-    if (admitted && leaves_line)
+    const bool touched = topology.end_touches(leftward ? 0 : static_cast<int>(kinds.size())) > 0;
+    if (admitted && leaves_line && !touched)
       meshes[i] = {{0.0, 1.0}, 0};
     else if (is_formula(meshes[i]) && tail)
       meshes[i] = meshed_tail(loads, s[i + 1] - s[i], leftward);

@@ -107,7 +107,7 @@ std::vector<fs::path> plot_rod(const equilibrium::Solution& solution, const std:
                      heights.force > 0.0 ? 0.8 / heights.force : 0.0,
                      heights.pressure,
                      stroke,
-                     options.plate};
+                     options.plates};
   const bool planar = solution.z_span < 1e-6;
   Picture picture{stem, planar ? 7.0 : 8.5, 6.0, heading(solution, title, heights.pressure, options.units)};
   const auto panel = [&](const char* suffix, const View& view, bool with_rim, double left, double right) {

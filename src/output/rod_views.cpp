@@ -70,7 +70,7 @@ std::array<std::string, 3> tube_blocks(const RodScene& scene, const View& view) 
 std::string plate_edge(const scene::Plate& plate, const Drum& drum, const View& view) {
   constexpr int sides = 240;
   const double radius = std::min(plate.outer_radius, window);
-  std::string text = "\n\n# plate: right up\n";
+  std::string text;
   bool broken = true;  // two empty lines would begin another block
   for (int k = 0; k <= sides; ++k) {
     const double a = 2.0 * M_PI * k / sides;
@@ -104,9 +104,11 @@ std::string view_data(const RodScene& scene, const View& view) {
       touches += data_line({view.project(touch).x(), view.project(touch).y()});
   }
   const Drum& drum = scene.drum;
+  std::string plates;
+  for (const scene::Plate& plate : scene.plates)  // one block
+    plates += (plates.empty() ? "\n\n# plate: right up\n" : "\n") + plate_edge(plate, drum, view);
   return text + "\n\n# cylinder\n" + polygon(drum.outline(view)) + "# near rim\n" +
-         polygon(drum.rim(view, view.towards.z() >= 0.0 ? drum.high : drum.low)) + touches +
-         (scene.plate ? plate_edge(*scene.plate, drum, view) : "");
+         polygon(drum.rim(view, view.towards.z() >= 0.0 ? drum.high : drum.low)) + touches + plates;
 }
 
 View side_view(const RodScene& scene) {
@@ -147,7 +149,7 @@ std::string view_commands(const RodScene& scene, const std::string& file, bool w
   text += " index 4 with filledcurves closed notitle lc rgb '#e8e8ec'";
   text += next + " index 4 with lines notitle lc rgb '#9a9aa4' lw 1";
   if (with_rim) text += next + " index 5 with lines notitle lc rgb '#9a9aa4' lw 1";
-  if (scene.plate && with_rim) text += next + " index 7 with lines notitle lc rgb '#b4b4be' lw 1.2";
+  if (!scene.plates.empty() && with_rim) text += next + " index 7 with lines notitle lc rgb '#b4b4be' lw 1.2";
   text += next + " index 1 using 1:2 with lines notitle lc rgb '#8a8a8a' lw 1.3 dt (4,4)";
   if (scene.is_thick()) {
     text += next + " index 2 " + tube_style;

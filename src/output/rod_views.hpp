@@ -21,7 +21,7 @@ struct RodScene {
   double arrow;             ///< length of an arrow over its force [ρ³/EI]
   double highest_pressure;  ///< [EI/ρ³]
   Stroke stroke;            ///< without a radius: a line
-  std::optional<scene::Plate> plate;
+  std::vector<scene::Plate> plates;
 
   bool is_thick() const { return stroke.radius > 0.0; }
 };

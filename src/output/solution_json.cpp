@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "windlass/obstacle/scene_obstacles.hpp"
 #include "windlass/output/error.hpp"
 #include "windlass/output/records.hpp"
 
@@ -92,19 +93,26 @@ ordered_json contact_json(const Solution& solution) {
   return contact;
 }
 
-/// What the plate carries: points, and lines that lie on cylinder and plate at once.
-ordered_json plate_json(const Solution& solution) {
+/// What a plate carries: points, and lines that lie on cylinder and plate at once, which only the first of two does.
+/// @param number  of the plate, from 1; of two plates the second's force is that at its points
+ordered_json plate_json(const Solution& solution, const scene::Scene& scene, int number) {
   ordered_json plate;
-  plate["force"] = finite_or_null(solution.plate_force);
+  double second = 0.0;
+  for (const JointRecord& joint : solution.joints)
+    if (obstacle::plate_at(scene, joint.obstacle) == 2) second += std::abs(joint.normal.z()) * joint.force;
+  plate["force"] = finite_or_null(number == 2          ? second
+                                  : scene.second_plate ? solution.plate_force - second
+                                                       : solution.plate_force);
   plate["arcs"] = plate["joints"] = ordered_json::array();
   for (const ArcRecord& arc : solution.arcs)
-    if (arc.plate_force > 0.0)
+    if (arc.plate_force > 0.0 && number == 1)
       plate["arcs"].push_back({{"s_begin", finite_or_null(arc.s_begin)},
                                {"s_end", finite_or_null(arc.s_end)},
                                {"force", finite_or_null(arc.plate_force)}});
   for (const JointRecord& joint : solution.joints) {
     const double force = joint.obstacle > 0 ? joint.force : joint.plate_force;
-    if (force > 0.0)
+    const int of = joint.obstacle > 0 ? obstacle::plate_at(scene, joint.obstacle) : 1;
+    if (force > 0.0 && of == number)
       plate["joints"].push_back({{"s", finite_or_null(joint.s)}, {"force", finite_or_null(force)}});
   }
   return plate;
@@ -223,7 +231,15 @@ ordered_json to_json(const Solution& solution, const scene::Scene& scene) {
   json["self_distance"] = finite_or_null(solution.self_distance.value_or(std::nan("")));
   json["self_force"] = finite_or_null(solution.self_force);
   if (scene.has_obstacles() || scene.self_contact) json["contact"] = contact_json(solution);
-  if (scene.plate) json["plate"] = plate_json(solution);
+  if (scene.plate) json["plate"] = plate_json(solution, scene, 1);
+  if (scene.second_plate) {
+    json["plates"] = ordered_json::array();
+    for (const int number : {1, 2}) {
+      ordered_json plate = plate_json(solution, scene, number);
+      plate["height"] = (number == 1 ? scene.plate : scene.second_plate)->height;
+      json["plates"].push_back(std::move(plate));
+    }
+  }
   if (solution.dragged)
     json["travel"] = {{"rate", finite_or_null(solution.travel_rate)},
                       {"pull_difference", finite_or_null(solution.pull_difference)}};

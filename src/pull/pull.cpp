@@ -66,6 +66,7 @@ scene::Scene at_rest(scene::Scene scene) {
   scene.motion = {};
   scene.friction.reset();
   scene.plate.reset();
+  scene.second_plate.reset();
   scene.continuation.reset();
   return scene;
 }

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "windlass/scene/error.hpp"
+#include "windlass/scene/keys.hpp"
 
 namespace windlass::scene {
 
@@ -82,11 +83,27 @@ std::vector<Entry> entries_of(const toml::table& table, const std::string& prefi
   return entries;
 }
 
+/// Keys of the first [[plate]] are those of a single [plate], those of the next one begin with plate.2.
+void add_plates(const toml::array& plates, Document& document) {
+  int number = 0;
+  for (const auto& element : plates) {
+    const std::string prefix = ++number == 1 ? "plate." : fmt::format("plate.{}.", number);
+    document.tables.try_emplace(prefix.substr(0, prefix.size() - 1),
+                                static_cast<int>(element.source().begin.line));
+    for (Entry& entry : entries_of(*element.as_table(), prefix, document))
+      document.entries.push_back(std::move(entry));
+  }
+}
+
 void flatten(const toml::table& table, const std::string& prefix, Document& document) {
   for (const auto& [key, node] : table) {
     const std::string name = prefix + std::string(key.str());
     const int line = static_cast<int>(node.source().begin.line);
     const auto* array = node.as_array();
+    if (name == "plate" && array && array->is_array_of_tables() && !array->empty()) {
+      add_plates(*array, document);
+      continue;
+    }
     if (name == "wall" && array && array->is_array_of_tables()) {
       for (const auto& element : *array)
         document.walls.push_back(entries_of(*element.as_table(), "wall.", document));
@@ -153,8 +170,9 @@ Document read_document(const std::filesystem::path& path, std::span<const std::s
                    [](const Entry& a, const Entry& b) { return line_of(a) < line_of(b); });
   for (const std::string& text : overrides) {
     Entry entry = parse_override(text);
-    if (const auto dot = entry.key.find('.'); dot != std::string::npos)
-      document.tables.try_emplace(entry.key.substr(0, dot), 0);
+    for (auto dot = entry.key.find('.'); dot != std::string::npos; dot = entry.key.find('.', dot + 1))
+      if (dot == entry.key.find('.') || find_key(entry.key))
+        document.tables.try_emplace(entry.key.substr(0, dot), 0);
     const auto old = std::find_if(document.entries.begin(), document.entries.end(),
                                   [&](const Entry& other) { return other.key == entry.key; });
     if (old == document.entries.end())

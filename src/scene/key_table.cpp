@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <type_traits>
 
@@ -314,40 +315,61 @@ std::vector<Key> load_keys() {
   };
 }
 
-Plate& the_plate(Scene& scene) { return scene.plate ? *scene.plate : scene.plate.emplace(); }
+template <std::optional<Plate> Scene::*One>
+Plate& the_plate(Scene& scene) {
+  if (scene.*One) return *(scene.*One);
+  Plate& made = (scene.*One).emplace();
+  if (One == &Scene::second_plate && scene.plate && scene.plate->side == PlateSide::above)
+    made.side = PlateSide::below;  // on the other side of the rod
+  return made;
+}
 
-std::vector<Key> plate_keys() {
-  Key height{.name = "plate.height",
+/// Keys of one of the two plates. @param names  of its height, outer radius and side
+template <std::optional<Plate> Scene::*One>
+std::vector<Key> keys_of_plate(std::array<std::string_view, 3> names, std::string_view what) {
+  Key height{.name = names[0],
              .dimension = Dimension::length,
              .range = any,
              .choices = {},
-             .help = "of a plate, a plane z = height that stops the rod; needs a cylinder",
+             .help = what,
              .get = [](const Scene& scene) -> std::optional<double> {
-               return scene.plate ? std::optional(scene.plate->height) : std::nullopt;
+               return scene.*One ? std::optional((scene.*One)->height) : std::nullopt;
              },
-             .set = [](Scene& scene, double value) { the_plate(scene).height = value; }};
-  Key radius{.name = "plate.outer_radius",
+             .set = [](Scene& scene, double value) { the_plate<One>(scene).height = value; }};
+  Key radius{.name = names[1],
              .dimension = Dimension::length,
              .range = {.low = 0.0, .open_low = true, .allows_infinity = true},
              .choices = {},
              .help = "of the plate, which has the cylinder's hole; \"inf\": it reaches beyond the rod",
              .get = [](const Scene& scene) -> std::optional<double> {
-               return scene.plate ? std::optional(scene.plate->outer_radius) : std::nullopt;
+               return scene.*One ? std::optional((scene.*One)->outer_radius) : std::nullopt;
              },
-             .set = [](Scene& scene, double value) { the_plate(scene).outer_radius = value; }};
-  Key side{.name = "plate.side",
+             .set = [](Scene& scene, double value) { the_plate<One>(scene).outer_radius = value; }};
+  Key side{.name = names[2],
            .kind = ValueKind::text,
            .range = any,
            .choices = {std::begin(side_words), std::end(side_words)},
            .help = "where the plate is, seen from the rod",
            .get_text = [](const Scene& scene) -> std::string {
-             return scene.plate ? std::string(side_words[static_cast<std::size_t>(scene.plate->side)]) : "";
+             return scene.*One ? std::string(side_words[static_cast<std::size_t>((scene.*One)->side)]) : "";
            },
            .set_text =
                [](Scene& scene, const std::string& word) {
-                 the_plate(scene).side = word == side_words[0] ? PlateSide::above : PlateSide::below;
+                 the_plate<One>(scene).side = word == side_words[0] ? PlateSide::above : PlateSide::below;
                }};
   return {height, side, radius};
+}
+
+std::vector<Key> plate_keys() {
+  std::vector<Key> all =
+      keys_of_plate<&Scene::plate>({"plate.height", "plate.outer_radius", "plate.side"},
+                                   "of a plate, a plane z = height that stops the rod; needs a cylinder");
+  const std::vector<Key> second = keys_of_plate<&Scene::second_plate>(
+      {"plate.2.height", "plate.2.outer_radius", "plate.2.side"},
+      "of a second plate, on the other side of the rod: the second [[plate]], or [plate.2]");
+  all.insert(all.end(), second.begin(), second.end());
+  for (Key& key : all) key.is_parameter = key.name == "plate.2.height";
+  return all;
 }
 
 std::vector<Key> knot_keys() {

@@ -59,7 +59,7 @@ std::string Range::text() const {
 }
 
 std::string_view Key::table() const {
-  const auto dot = name.find('.');
+  const auto dot = name.rfind('.');
   return dot == std::string_view::npos ? std::string_view{} : name.substr(0, dot);
 }
 

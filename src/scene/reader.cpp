@@ -27,10 +27,12 @@ class Resolver {
 
   Scene resolve(const std::string& name) {
     refuse_single_wall(document_);
+    check_plates_given(document_);
     check_names(document_);
     scene_.name = name;
     scene_.has_cylinder = document_.tables.contains("cylinder");
     if (document_.tables.contains("plate")) scene_.plate.emplace();
+    if (document_.tables.contains("plate.2")) scene_.second_plate.emplace();
     read_continuation_parameter();
     find_units();
     for (const Entry& entry : document_.entries) fill(entry);
@@ -162,6 +164,9 @@ class Resolver {
 
   /// What follows from other keys.
   void derive() {
+    if (scene_.second_plate && !document_.find("plate.2.side"))
+      scene_.second_plate->side =
+          scene_.plate->side == PlateSide::above ? PlateSide::below : PlateSide::above;
     if (!document_.find("rod.bending_stiffness_2"))
       scene_.rod.bending_stiffness_2 = scene_.rod.bending_stiffness;
     if (const Entry* entry = document_.find("rod.poisson_ratio")) {

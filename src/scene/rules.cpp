@@ -13,6 +13,13 @@ void forbid(const Document& document, const std::string& key, const std::string&
   if (const Entry* entry = document.find(key)) throw SceneError(entry->prefix() + why);
 }
 
+void refuse_for(const Document& document, const std::string& key, const std::string& why) {
+  forbid(document, key, why);
+  std::string table = key.substr(0, key.rfind('.'));
+  if (!document.tables.contains(table)) table = table.substr(0, table.find('.'));
+  throw SceneError(fmt::format("{}: {}: {}", document.place_of_table(table), key, why));
+}
+
 bool starts_in(const Scene& scene, const std::string& key) {
   return scene.continuation && scene.continuation->parameter == key;
 }
@@ -145,21 +152,9 @@ void check_friction_couple(const Scene& scene, const Refuse& refuse) {
     refuse(key, "must be false with model.kind = \"planar\": the moment of the friction twists the rod");
 }
 
-/// Plates, and cylinders that slide.
+/// Cylinders that slide.
 void check_sliding(const Document& document, const Scene& scene) {
-  const auto refuse = [&](const std::string& key, const std::string& why) {
-    if (const Entry* entry = document.find(key)) throw SceneError(entry->prefix() + why);
-    const std::string table = key.substr(0, key.find('.'));
-    throw SceneError(fmt::format("{}: {}: {}", document.place_of_table(table), key, why));
-  };
-  if (scene.plate) {
-    if (!scene.has_cylinder) refuse("plate.height", "needs a [cylinder]");
-    if (scene.plate->outer_radius < 1.0)
-      refuse("plate.outer_radius", "must be >= 1: a smaller plate does not reach the rod on the cylinder");
-    if (scene.rod.infinite()) refuse("rod.length", "must be finite with a plate");
-    if (scene.model.symmetry == Symmetry::half_turn)
-      refuse("model.symmetry", "must not be \"half_turn\": a plate is not its own image under the half-turn");
-  }
+  const auto refuse = [&](const std::string& key, const std::string& why) { refuse_for(document, key, why); };
   if (scene.mirrored()) {
     if (!scene.slides())
       refuse("model.symmetry",
@@ -182,8 +177,11 @@ void check_sliding(const Document& document, const Scene& scene) {
     refuse("cylinder.friction", "must be > 0 with cylinder.sliding = \"up\"");
   if (!scene.plate) refuse("cylinder.sliding", "needs a [plate], or the cylinder would carry the rod away");
   if (scene.plate->side != PlateSide::above)
-    refuse("plate.side",
-           "must be \"above\" with cylinder.sliding = \"up\", or the cylinder would carry the rod away");
+    refuse(
+        "plate.side",
+        std::string("must be \"above\" with cylinder.sliding = \"up\", or the cylinder would carry the rod "
+                    "away") +
+            (scene.second_plate ? "; of two plates the first holds the rod back" : ""));
   check_friction_couple(scene, refuse);
   for (const auto& [end, kind] :
        {std::pair{"ends.left", scene.ends.left_kind()}, {"ends.right", scene.ends.right_kind()}})
@@ -241,6 +239,7 @@ void check_rules(const Document& document, const Scene& scene, bool restart) {
   check_knot(document, scene);
   check_stretch(document, scene);
   check_weight(document, scene);
+  check_plates(document, scene);
   check_sliding(document, scene);
   check_guides(document, scene);
   if (scene.continuation) check_continuation(document, scene, restart);

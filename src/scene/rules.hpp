@@ -14,6 +14,8 @@ SceneError missing(const Document& document, const std::string& key, const std::
 
 /// Refuses a key that is given. @throws SceneError
 void forbid(const Document& document, const std::string& key, const std::string& why);
+/// The same whether it is given or not: then at the line of its table. @throws SceneError
+[[noreturn]] void refuse_for(const Document& document, const std::string& key, const std::string& why);
 /// Is a branch followed in this key?
 bool starts_in(const Scene& scene, const std::string& key);
 
@@ -23,6 +25,10 @@ void check_weight(const Document& document, const Scene& scene);
 
 /// Rules of ends on sliders, likewise.
 void check_guides(const Document& document, const Scene& scene);
+
+/// Rules of plates: at most two, the second with a height of its own; and what must hold between them, a part of check_rules().
+void check_plates_given(const Document& document);
+void check_plates(const Document& document, const Scene& scene);
 
 /// @param restart  a branch begins at a stored point, wherever continuation.from is
 /// @throws SceneError for the first rule that does not hold

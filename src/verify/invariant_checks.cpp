@@ -41,6 +41,16 @@ std::optional<Vector3d> along_all(const std::vector<scene::Wall>& walls) {
   return projected.norm() > none ? Vector3d(projected.normalized()) : Vector3d(basis.col(0));
 }
 
+/// What plates push the rod with at a joint; its ends' pushes are part of the force that they carry.
+Vector3d push_of_plate(const equilibrium::JointRecord& joint, const Solution& solution,
+                       const std::vector<Shape>& shapes) {
+  const bool contact = joint.kind == JointKind::touch || joint.kind == JointKind::edge;
+  if (!solution.has_cylinder || joint.obstacle <= 0 || !contact) return Vector3d::Zero();
+  const Shape* shape = shape_of(shapes, joint.obstacle);
+  return shape ? Vector3d(joint.force * shape->outward(joint.r, Vector3d::UnitX()))
+               : Vector3d(Vector3d::Constant(NAN));
+}
+
 /// The virial of all contact forces about the axis: with n·t = H − m·u/2 along the rod,
 /// R_tot + 2r Σ F_self = H L − E − [n·r] from end to end. Of rods without natural strains. (For long tails H is T, n·r the
 /// pull times the projection of the end's place on it, and this the identity of scaling all lengths.) Stretch and weight add
@@ -53,8 +63,10 @@ void check_scaling(const Solution& solution, const scene::Scene& scene, const Sc
   const double length = last.s(last.s.size() - 1) - first.s(0);
   const double h = Stiffness(scene.rod).hamiltonian(last_section(last));
   const double ends = last.r.rightCols<1>().dot(last.n.rightCols<1>()) - first.r.col(0).dot(first.n.col(0));
-  const double pulls = h * length - ends + virial,
-               forces = solution.R_tot + 2.0 * scene.rod_radius * solution.self_force;
+  const double pulls = h * length - ends + virial;
+  double forces = solution.R_tot + 2.0 * scene.rod_radius * solution.self_force;
+  for (const auto& joint : solution.joints)
+    forces += push_of_plate(joint, solution, shapes_of(scene, 0.0)).dot(joint.r);
   const double size = std::max({scales.force, std::abs(pulls), forces, solution.energy});
   // Nothing but the mesh is in this: R_tot is asked for to model.tolerance.
   list.at_most("scaling", std::abs(forces - (pulls - solution.energy)) / size,
@@ -73,6 +85,7 @@ void check_invariants(const Solution& solution, const scene::Scene& scene, const
   const bool walls = !scene.walls.empty(), dragged = solution.dragged;  // friction changes what it works on
   Vector3d strand_push = Vector3d::Zero();                              // of other strands, up to here
   double strand_torque = 0.0;
+  const std::vector<Shape> shapes = shapes_of(scene, solution.travel_rate);
   const std::optional<Vector3d> along = walls ? along_all(scene.walls) : Vector3d(Vector3d::UnitZ());
   for (std::size_t k = 0; k < solution.arcs.size(); ++k) {
     const ArcRecord& arc = solution.arcs[k];
@@ -83,6 +96,7 @@ void check_invariants(const Solution& solution, const scene::Scene& scene, const
       strand_push += push;
       strand_torque += joint.r.cross(push).z();
     }
+    strand_push += push_of_plate(solution.joints[k], solution, shapes);
     // The moment of the friction at a touch of the cylinder is judged there (joint_moment).
     if (k > 0 && scene.friction_arm() > 0.0 && solution.joints[k].obstacle == 0) twist.restart();
     if (arc.s_end - arc.s_begin < tight) continue;  // vanishes at an event, and has no section of its own

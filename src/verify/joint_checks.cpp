@@ -81,6 +81,11 @@ void check_joints(const Solution& solution, const scene::Scene& scene, const Sca
       contact.add(inside ? judged(joint, solution.arcs[k - 1], solution.arcs[k], scales)
                          : joint.force / scales.force);
     }
+    if (joint.kind == JointKind::end && joint.obstacle > 0) {  // on a plate
+      const Shape* shape = shape_of(shapes, joint.obstacle);
+      contact.add(joint.force / scales.force);
+      surface.add(shape ? std::abs(shape->gap(joint.r)) : NAN);
+    }
     if (joint.partner >= 0) between.add(judged_between(solution, k, scales));
     if (k == 0 || k + 1 == solution.joints.size()) continue;
     const Section before = last_section(solution.arcs[k - 1]), after = first_section(solution.arcs[k]);
@@ -191,9 +196,12 @@ double guide_error(const End& end, const scene::Scene& scene) {
 
 void check_capstan_ends(const End (&ends)[2], const scene::Scene& scene, const Scales& scales,
                         CheckList& list) {
+  const std::vector<Shape> shapes = shapes_of(scene, 0.0);
   Largest pull, moment, clamp, spin, guide;
   for (const End& end : ends) {
-    const Vector3d off = end.side * end.section.n - end.pull;
+    const Shape* plate = end.joint.obstacle > 0 ? shape_of(shapes, end.joint.obstacle) : nullptr;
+    Vector3d off = end.side * end.section.n - end.pull;
+    if (plate) off -= end.joint.force * plate->outward(end.section.r, tangent(end.section));
     // A slider takes what is across its line.
     pull.add((scene.ends.guided() ? std::abs(off.dot(end.pull.normalized())) : off.norm()) / scales.force);
     if (scene.ends.guided()) guide.add(guide_error(end, scene));
@@ -248,9 +256,27 @@ void check_ends(const Solution& solution, const scene::Scene& scene, const Scale
 
 namespace {
 
-/// Of the forces on the two ends, along e_z: what sliders push with.
+/// Of the forces on the two ends, along e_z: what sliders push with, and plates that the ends touch.
 double axial_push(const Solution& solution) {
   return last_section(solution.arcs.back()).n.z() - first_section(solution.arcs.front()).n.z();
+}
+
+/// What the plates push the rod down with, those that its ends touch left out: of all their forces, which are reported as one sum of
+/// sizes, those of plates below it count against the others.
+double push_of_plates(const Solution& solution, const std::vector<Shape>& shapes) {
+  double sum = solution.plate_force;
+  for (std::size_t k = 0; k < solution.joints.size(); ++k) {
+    const JointRecord& joint = solution.joints[k];
+    const bool end = joint.kind == JointKind::end;
+    if (joint.obstacle <= 0 || joint.kind == JointKind::strand) continue;
+    const Shape* shape = shape_of(shapes, joint.obstacle);
+    const Section at =
+        k < solution.arcs.size() ? first_section(solution.arcs[k]) : last_section(solution.arcs.back());
+    const double up = shape ? shape->outward(at.r, tangent(at)).z() : NAN;
+    if (up > 0.0) sum -= 2.0 * joint.force * up;
+    if (end) sum += joint.force * up;
+  }
+  return sum;
 }
 
 }  // namespace
@@ -298,9 +324,11 @@ void check_totals(const Solution& solution, const scene::Scene& scene, const Sca
   if (solution.dragged)
     list.at_most(
         "axial_balance",
-        std::abs(solution.F0.value_or(NAN) - solution.plate_force + axial_push(solution)) / scales.force,
+        std::abs(solution.F0.value_or(NAN) - push_of_plates(solution, shapes_of(scene, 0.0)) +
+                 axial_push(solution)) /
+            scales.force,
         tight,
-        "reported F0, what the cylinder drags with, against what plate and sliders carry, / max(1, T)");
+        "reported F0, what the cylinder drags with, against what plates and sliders carry, / max(1, T)");
   if (any) {
     list.at_most("contact_angle", std::abs(0.5 * (last - first) - solution.phi_star), tight,
                  "reported phi_star against the outermost contacts");

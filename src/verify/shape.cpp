@@ -90,8 +90,10 @@ double Shape::bend(const Vector3d& r, const Vector3d& t) const {
 std::vector<Shape> shapes_of(const scene::Scene& scene, double travel) {
   if (scene.has_cylinder) {
     std::vector<Shape> shapes{Shape::slipping(scene.dragging_friction(), travel, scene.friction_arm())};
-    if (scene.plate) shapes.push_back(Shape::of(*scene.plate, scene.rod_radius));
-    if (scene.plate && shapes.back().has_edge()) shapes.push_back(shapes.back());  // named apart
+    for (const scene::Plate& plate : scene.plates()) {
+      shapes.push_back(Shape::of(plate, scene.rod_radius));
+      if (shapes.back().has_edge()) shapes.push_back(shapes.back());  // named apart
+    }
     return shapes;
   }
   std::vector<Shape> shapes;

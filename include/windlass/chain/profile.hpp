@@ -52,9 +52,11 @@ struct Profile {
   std::vector<Contact> contacts;  ///< in the order of the chain's joints
   obstacle::Set obstacles;
   rod::Material material;
-  double radius = 0.0;       ///< of the rod, 0: its strands pass through each other [ρ]
-  double unit_length = 1.0;  ///< see RodKind
-  double travelled = 0.0;    ///< τ or ω on a cylinder that slips along the rod, see Travel
+  double radius = 0.0;                       ///< of the rod, 0: its strands pass through each other [ρ]
+  double unit_length = 1.0;                  ///< see RodKind
+  double travelled = 0.0;                    ///< τ or ω on a cylinder that slips along the rod, see Travel
+  bool stands_free = false, floats = false;  ///< see the functions of these names
+  bool ends_held = false;  ///< in their places, or to lines: a strut's, and those on sliders
 
   /// The contact at a joint; nullptr: there is none.
   const Contact* contact_at(int joint) const;

@@ -74,6 +74,11 @@ struct Topology {
     return joint > 0 && joint < static_cast<int>(stretches.size()) && stretches[joint - 1] == Stretch::line &&
            stretches[joint] == Stretch::line && lies_flat(joint - 1) != lies_flat(joint);
   }
+  /// The plate that an end of the rod touches, its place among the obstacles; 0: none.
+  int end_touches(int joint) const {
+    const bool end = joint == static_cast<int>(stretches.size()) || (joint == 0 && !half);
+    return end ? seat(joint).obstacle : 0;
+  }
   /// What a contact joint is pushed by: where a line is stopped, or lifts off, the plate.
   int pushed_by(int joint) const {
     if (seat(joint).stop >= 0) return seat(joint).stop;
@@ -150,6 +155,10 @@ struct ArcMesh {
   std::vector<double> nodes = {0.0, 1.0};
   int stages = 6;
 };
+
+/// Does nothing but plates hold the rod along the axis of its cylinder? And does it touch none of them, so that it floats?
+bool stands_free(const RodKind& rod);
+bool floats(const RodKind& rod, const Topology& topology);
 
 /// @param meshes  one an arc, in the order of the chain (full chain: from s = −L/2); ignored for closed-form arcs
 /// @throws std::invalid_argument for a topology the kind of rod cannot have

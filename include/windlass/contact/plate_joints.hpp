@@ -29,8 +29,8 @@ class Stopped final : public VectorJoint {
   Eigen::Vector2d on_surface(const double* w) const override;
 
  private:
+  double height() const { return plate_->chart(Eigen::Vector2d::Zero()).r(2); }
   SurfacePointer line_, plate_;
-  double height_;
   bool in_the_middle_;
 };
 
@@ -171,6 +171,30 @@ class FlatPressed final : public VectorJoint {
   SurfacePointer line_;
   Pressed pressed_;
   double height_;
+};
+
+/// Rod end under its dead pull that touches a plate: w = (x, y, those of the frame), free to slide on the plate, which pushes it
+/// with what its arc's force, three unknowns whose equations are X_b − X_a = ∫ r', has along the plate's normal. Equations here: the
+/// two forces in the plate, which are the pull, and those of the frame, held as by an End or a HeldEnd.
+class EndOnPlate final : public Joint {
+ public:
+  EndOnPlate(Side arc_side, std::unique_ptr<Joint> frame, SurfacePointer plate)
+      : arc_(arc_side), frame_(std::move(frame)), plate_(std::move(plate)) {}
+  JointKind kind() const override { return JointKind::end; }
+  int ambient() const override { return 2 + frame_->ambient(); }
+  int tangent() const override { return 2 + frame_->tangent(); }
+  std::vector<int> out_of_plane() const override;
+  Attachment attach(Side side, const double* w, const Loads& loads) const override;
+  void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
+                 SmallMatrix& out) const override;
+  SmallVector dead_load(const double* w, const Loads& loads) const override;
+  void retract(const double* w, const double* dw, double* out) const override;
+  void adopt(const Place& place, double* w) const override;
+
+ private:
+  Side arc_;
+  std::unique_ptr<Joint> frame_;
+  SurfacePointer plate_;
 };
 
 /// Where a line on cylinder and plate leaves the plate and goes on along the cylinder: w = (u₀, χ), 2 degrees of freedom,

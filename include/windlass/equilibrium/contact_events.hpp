@@ -18,7 +18,9 @@
 /// | force | point force at a touch or an edge | the touch is lost; an edge: what `length` says if its line is as short |
 /// | curvature | g'' at a touch, on a plane less `least_curvature` | the touch flattens into a line, or comes apart into two |
 /// | dip | 1 less how much nearer strands are beside a touch of theirs, over what it carries | two touches, a line between them or not |
-/// | graze | least gap inside a free arc, of each obstacle | a new touch |
+/// | graze | least gap inside a free arc, of each obstacle, and at an end of the rod | a new touch |
+/// | slope | of an end that touches a plate, towards it | the touch leaves the end, the tail beyond lies flat |
+/// | room | of a rod that floats between two plates: their distance less its height | it touches both |
 /// | approach | least distance of two strands less 2r, of every pair of links | a new touch of the two |
 /// | reaction | force of the obstacle under a strand that another presses on, and what the line carries of it | it lifts |
 /// | rim | how far inside a plate's outer edge it is touched; of a touch of that edge sin α cos α of its force's tilt | the other one of the two; at α = π/2 the branch ends |
@@ -85,7 +87,9 @@ struct ContactEvent {
     approach,
     reaction,
     rim,
-    dip
+    dip,
+    slope,
+    room
   };
   Kind kind = Kind::force;
   int place = 0;  ///< link (pressure, suction, length, graze, buckling) or joint (force, curvature)

@@ -12,6 +12,7 @@
 #include "windlass/chain/profile.hpp"
 #include "windlass/chain/topology.hpp"
 #include "windlass/equilibrium/snes_newton.hpp"
+#include "windlass/obstacle/scene_obstacles.hpp"
 #include "windlass/scene/scene.hpp"
 
 /// Equilibria of a rod as the continuation library sees them.
@@ -186,6 +187,7 @@ class RodProblem final : public continuation::Problem {
   std::vector<chain::ArcMesh> meshes_;
   std::vector<std::string> keys_;
   chain::RodKind rod_;
+  obstacle::MovingPlate second_plate_;  ///< among rod_'s obstacles, if there is one
   contact::Loads base_;
   std::vector<double contact::Loads::*> fields_;  ///< where each parameter lives; null: rebuilds the rod
   SnesNewton newton_;

@@ -16,6 +16,8 @@ class Plane final : public Surface {
   Plane(const Vector3d& normal, double distance,
         double outer_radius = std::numeric_limits<double>::infinity());
   double outer_radius() const override { return outer_radius_; }
+  /// Where it is from now on, for all that stands beside it: see MovingPlate.
+  void move_to(double distance) { distance_ = distance; }
   double gap(const Vector3d& r) const override { return distance_ + normal_.dot(r); }
   Vector3d normal(const Vector3d&) const override { return normal_; }
   Matrix3d hessian(const Vector3d&) const override { return Matrix3d::Zero(); }

@@ -17,6 +17,8 @@ class Rim final : public Surface {
   /// @param height  z_p, of the centre line under the plate
   Rim(double outer_radius, double height, bool above, double tube);
 
+  void move_to(double height) { height_ = height; }
+
   double circle() const { return radius_; }
   double tube() const { return tube_; }
   /// Distance from the physical edge outward, and from the physical plane to the rod's side.

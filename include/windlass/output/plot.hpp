@@ -18,7 +18,7 @@ struct PlotOptions {
   std::optional<scene::Units> units;                ///< adds axes in newtons and grams to the diagram
   obstacle::Set obstacles;                          ///< drawn beside struts
   double rod_radius = 0.0;                          ///< [ρ]; 0: rods are drawn as lines
-  std::optional<scene::Plate> plate;                ///< drawn in side views of rods round a cylinder
+  std::vector<scene::Plate> plates;                 ///< drawn in side views of rods round a cylinder
   std::vector<std::pair<double, double>> measured;  ///< dimensionless (T, R_tot) laid over the diagram
   std::filesystem::path folder;                     ///< where pictures go; empty: RUN/plots
 };

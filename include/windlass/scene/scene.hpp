@@ -150,9 +150,16 @@ struct Scene {
   double rod_radius = 0.0;    ///< r [ρ]; 0 unless physical or given
   bool self_contact = false;  ///< strands of the rod keep 2r apart
   double strand_radius() const { return self_contact ? rod_radius : 0.0; }
-  std::optional<double> friction;  ///< mu
-  Motion motion;                   ///< of the cylinder
-  std::optional<Plate> plate;
+  std::optional<double> friction;     ///< mu
+  Motion motion;                      ///< of the cylinder
+  std::optional<Plate> plate;         ///< of a cylinder that slides what holds the rod back
+  std::optional<Plate> second_plate;  ///< on the other side of the rod
+  std::vector<Plate> plates() const {
+    std::vector<Plate> all;
+    for (const std::optional<Plate>& one : {plate, second_plate})
+      if (one) all.push_back(*one);
+    return all;
+  }
   bool slides() const { return motion.sliding != Sliding::none; }
   std::vector<Wall> walls;  ///< struts only, in the order of the file
   Load load;

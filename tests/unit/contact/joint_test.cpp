@@ -274,6 +274,10 @@ BOOST_AUTO_TEST_CASE(attachments_of_spatial_joints) {
     check("end on a slider", GuidedEnd(side, std::make_unique<End>(side, false)), {side});
     check("clamped end on a slider", GuidedEnd(side, std::make_unique<End>(side, true)), {side});
     check("end in a universal joint on a slider", GuidedEnd(side, std::make_unique<HeldEnd>()), {side});
+    check("end on a plate", EndOnPlate(side, std::make_unique<End>(side, false), plate()), {side});
+    check("clamped end on a plate", EndOnPlate(side, std::make_unique<End>(side, true), plate()), {side});
+    check("end in a universal joint on a plate", EndOnPlate(side, std::make_unique<HeldEnd>(), plate()),
+          {side});
   }
   for (const bool under_thrust : {false, true})
     for (const bool pinned : {false, true})

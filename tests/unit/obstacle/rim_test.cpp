@@ -71,4 +71,20 @@ BOOST_AUTO_TEST_CASE(a_plate_that_ends_has_one) {
   BOOST_TEST(!as_rim(all.pointer(1)));
 }
 
+BOOST_AUTO_TEST_CASE(two_plates_come_one_after_the_other_each_with_its_edge) {
+  scene::Scene scene;
+  scene.has_cylinder = true;
+  scene.plate = scene::Plate{.height = 0.2, .side = scene::PlateSide::above, .outer_radius = radius};
+  scene.second_plate = scene::Plate{.height = -0.7, .side = scene::PlateSide::below};
+  const Set all = obstacles_of(scene);
+  BOOST_REQUIRE(all.size() == 4);
+  BOOST_TEST(as_rim(all.pointer(2)));
+  const Vector3d between(1.1, 0.0, -0.3);  // gaps are distances from either
+  BOOST_TEST(std::abs(all[1].gap(between) - 0.5) < 1e-15);
+  BOOST_TEST(std::abs(all[3].gap(between) - 0.4) < 1e-15);
+  BOOST_TEST(all[3].normal(between) == Vector3d::UnitZ());
+  const std::vector<int> plates{0, 1, 1, 2, 0};
+  for (int o = 0; o < 5; ++o) BOOST_TEST(plate_at(scene, o) == plates[o]);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -150,7 +150,7 @@ BOOST_AUTO_TEST_CASE(a_plate_is_drawn_in_the_side_view) {
   const test::TemporaryFolder temporary;
   output::PlotOptions options;
   options.formats = {"png@60"};
-  options.plate = scene::Plate{.height = 0.3};
+  options.plates = {scene::Plate{.height = 0.3}};
   auto solution = test::planar_capstan(1.0, two_pi);
   solution.z_span = 0.3;  // as if it left its plane: those that do not have no side view
   output::plot_rod(solution, "plate", options, temporary.path(), "plate");

@@ -35,7 +35,7 @@ BOOST_AUTO_TEST_CASE(every_numeric_key_can_be_set_and_read) {
     BOOST_TEST(!(scene == before), key.name << " does not reach the scene");
     ++count;
   }
-  BOOST_TEST(count == 19);
+  BOOST_TEST(count == 20);
 }
 
 BOOST_AUTO_TEST_CASE(a_key_reaches_its_own_member) {
