@@ -42,8 +42,7 @@ double Chain::neutral_size(const VectorXd& x, const Loads& loads) const {
   return largest;
 }
 
-void Chain::add_gauges(const Numbering& numbering, Purpose purpose, const VectorXd& x,
-                       Block& dense) const {
+void Chain::add_gauges(const Numbering& numbering, Purpose purpose, const VectorXd& x, Block& dense) const {
   for (int j = 0; j < joint_count(); ++j) {
     const double share = slide_share(j);
     if (share == 0.0) continue;
@@ -67,7 +66,7 @@ void Chain::add_gauges(const Numbering& numbering, Purpose purpose, const Vector
 }
 
 Block Chain::variation_matrix(Purpose purpose, const Numbering& numbering, const VectorXd& x,
-                                 const Loads& loads) const {
+                              const Loads& loads) const {
   Block dense(numbering.size);
   for (int i = 0; i < link_count(); ++i)
     add_joint_terms(purpose, numbering, x, loads, i, gradients_[i], dense);
@@ -134,8 +133,8 @@ std::vector<const Arc*> Chain::arcs() const {
 }
 
 Block Chain::condensed_variation(Purpose purpose, const Numbering& numbering, const VectorXd& x,
-                                    const Loads& loads, const std::vector<const Arc*>& arcs,
-                                    const std::vector<bvp::EndsMatrix>& condensed) const {
+                                 const Loads& loads, const std::vector<const Arc*>& arcs,
+                                 const std::vector<bvp::EndsMatrix>& condensed) const {
   Block dense = variation_matrix(purpose, numbering, x, loads);
   const VectorXd motion = numbering.phase >= 0 ? phase_motion(purpose, numbering, x, loads) : VectorXd();
   const VectorXd slid = holds_knot(numbering) ? slid_by(purpose, numbering, x, loads) : VectorXd();
@@ -180,8 +179,8 @@ Chain::Inertia Chain::inertia(const VectorXd& x, const Loads& loads, Parity pari
   if (turn.size() > 0) hold(dense, turn, usual_size(dense));
   constexpr double close_to_rounding = 1e-9;  // of the largest entry
   const SymmetricFactors factors(dense.whole());
-  const bool near = replaced.empty() && dense.rows() > 0 &&
-                    factors.least_pivot() < close_to_rounding * dense.largest();
+  const bool near =
+      replaced.empty() && dense.rows() > 0 && factors.least_pivot() < close_to_rounding * dense.largest();
   return {negative + factors.negative(), near};
 }
 

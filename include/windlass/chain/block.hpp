@@ -61,7 +61,7 @@ class Block {
   void symmetrise();
   Eigen::VectorXd operator*(const Eigen::VectorXd& v) const;
   bool all_finite() const;
-  double largest() const;               ///< size of the largest entry
+  double largest() const;                ///< size of the largest entry
   Eigen::VectorXd largest_rows() const;  ///< the same in each row
   Eigen::VectorXd diagonal() const;
   Eigen::MatrixXd whole() const;

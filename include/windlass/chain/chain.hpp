@@ -354,8 +354,8 @@ class Chain {
   static std::vector<Coupled> held_by(const Arc& arc, Block& dense);
   /// The dense block of a variation, interiors condensed by the arcs' last factorisations; symmetric.
   Block condensed_variation(Purpose purpose, const Numbering& numbering, const VectorXd& x,
-                               const Loads& loads, const std::vector<const Arc*>& arcs,
-                               const std::vector<bvp::EndsMatrix>& condensed) const;
+                            const Loads& loads, const std::vector<const Arc*>& arcs,
+                            const std::vector<bvp::EndsMatrix>& condensed) const;
   std::vector<const Arc*> arcs() const;
   /// Is this the arc between a clamp and a line along it, which is about to buckle by itself, at any load
   /// (contact::spatial::FreeRodEnd)? Or that between a clamp and a touch where the line begins, free of moment at both
@@ -392,7 +392,7 @@ class Chain {
                                               const Eigen::SparseMatrix<double>& map, int link) const;
   Eigen::SparseMatrix<double> sparse_hessian(Purpose purpose, const Placed& placed, int link) const;
   Block variation_matrix(Purpose purpose, const Numbering& numbering, const VectorXd& x,
-                            const Loads& loads) const;
+                         const Loads& loads) const;
 
   static constexpr double flat_to = 1e-9;  ///< rounding [ρ, rad]
   /// Places in an increment that move a flat rod out of its plane.
