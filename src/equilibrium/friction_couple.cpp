@@ -9,8 +9,11 @@ namespace windlass::equilibrium {
 using chain::Stretch;
 
 bool carries_couple(const Topology& topology) {
-  for (int i = 0; i < static_cast<int>(topology.stretches.size()); ++i)
-    if (topology.stretches[i] == Stretch::line || topology.touches_flat(i)) return false;
+  for (int i = 0; i < static_cast<int>(topology.stretches.size()); ++i) {
+    if (topology.lies_flat(i) || topology.touches_flat(i)) return false;
+    if (topology.stretches[i] == Stretch::line && (topology.obstacle(i) != 0 || (topology.half && i == 0)))
+      return false;
+  }
   return topology.couplings().empty();
 }
 

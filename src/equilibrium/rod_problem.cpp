@@ -119,13 +119,17 @@ RodProblem::RodProblem(scene::Scene scene, bool spatial, Topology topology,
   rebuild();
 }
 
+bool RodProblem::coupled() const {
+  const bool thickens = std::find(keys_.begin(), keys_.end(), "rod.radius") != keys_.end();
+  return base_.arm != 0.0 || (thickens && scene_.friction_has_couple());
+}
+
 const char* RodProblem::missing_on(const Topology& topology) const {
   const auto asked = [&](double Loads::*field) {
     return base_.*field != 0.0 || std::find(fields_.begin(), fields_.end(), field) != fields_.end();
   };
   const bool thickens = std::find(keys_.begin(), keys_.end(), "rod.radius") != keys_.end();
-  const bool couple = asked(&Loads::arm) || (thickens && scene_.friction_has_couple());
-  if (couple && !(spatial_ && carries_couple(topology))) return "cylinder.friction_couple";
+  if (coupled() && !(spatial_ && carries_couple(topology))) return "cylinder.friction_couple";
   if (thickens && touches_rim(rod_, topology)) return "plate.outer_radius";
   if (rod_.travel != chain::Travel::none && asked(&Loads::compliance) &&
       !carries_stretch(topology, rod_.travel))
@@ -147,6 +151,7 @@ void RodProblem::rebuild() {
     throw NoEquilibrium(key == std::string_view("rod.extensible")       ? stretch_not_carried()
                         : key == std::string_view("plate.outer_radius") ? rim_not_thickened()
                                                                         : couple_not_carried());
+  rod_.coupled = coupled();
   chain_ = chain::build_chain(rod_, topology_, meshes_);
   chain_->let_slide(slides_);
   finer_.reset();
