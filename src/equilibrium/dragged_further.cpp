@@ -4,6 +4,7 @@
 
 #include "attempt.hpp"
 #include "dragged_start.hpp"
+#include "windlass/chain/guess.hpp"
 
 namespace windlass::equilibrium {
 
@@ -13,8 +14,18 @@ std::optional<Started> followed(const Started& state, const scene::Scene& scene,
                                 const std::vector<std::string>& keys, std::string& failure) {
   const auto problem = std::make_shared<RodProblem>(further.from, true, state.problem->topology(),
                                                     state.problem->meshes(), further.keys);
+  Vector x = state.x;
+  if (problem->chain().ambient_size() != x.size()) {  // its edges have a force of their own
+    const chain::Profile shape = state.problem->profile(state.x, state.p);
+    const std::vector<double> s = state.problem->joint_places(state.x, state.p, shape);
+    x = chain::guess_state(problem->chain(), problem->topology(), problem->rod(), shape, s);
+    if (problem->polish(x, problem->parameters()) < 0) {
+      failure = "Newton's method does not converge on " + problem->topology().text();
+      return std::nullopt;
+    }
+  }
   try {
-    return reach({problem, state.x, problem->parameters(), 0}, scene, further.to, false, keys, failure);
+    return reach({problem, x, problem->parameters(), 0}, scene, further.to, false, keys, failure);
   } catch (const NoEquilibrium& none) {
     failure = none.what();
     return std::nullopt;
