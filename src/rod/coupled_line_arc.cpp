@@ -1,5 +1,6 @@
 #include "windlass/rod/coupled_line_arc.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "windlass/bvp/collocation_arc.hpp"
@@ -325,6 +326,13 @@ Eigen::VectorXd CoupledLineArc::metric(const ArcPoint& at) const {
 }
 
 std::vector<double> CoupledLineArc::resolution(const ArcPoint& at) const { return still_->resolution(at); }
+
+std::pair<double, double> CoupledLineArc::layers(const ArcPoint& at) const {
+  const auto lever = [&](double psi) {
+    return at.arm * at.friction * levers(psi, slip(psi, at.travel)).along;
+  };
+  return {std::max(-lever(at.q_a[0]), 0.0), std::max(lever(at.q_b[0]), 0.0)};
+}
 
 bvp::ArcSamples CoupledLineArc::sample(const ArcPoint& at) const {
   const int m = stages(), last = elements();

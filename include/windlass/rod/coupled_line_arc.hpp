@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "windlass/rod/dense_arc.hpp"
@@ -36,6 +37,8 @@ class CoupledLineArc final : public DenseArc {
 
   void gradient(const bvp::ArcPoint& at, double* interior, bvp::EndsVector& ends) const override;
   Eigen::VectorXd metric(const bvp::ArcPoint& at) const override;
+  /// Widths |w| of the layers of pressure at its start and its end, 0 where it flows out [ρ].
+  std::pair<double, double> layers(const bvp::ArcPoint& at) const;
   bvp::ArcSamples sample(const bvp::ArcPoint& at) const override;
   double energy(const bvp::ArcPoint& at) const override { return still_->energy(at); }
   std::vector<double> resolution(const bvp::ArcPoint& at) const override;
