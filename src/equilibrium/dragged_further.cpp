@@ -31,9 +31,6 @@ std::optional<Started> leapt(const Started& state, const Further& further, doubl
         there, true, state.problem->topology(),
         with_layers(problem->chain(), problem->meshes(), guess(), problem->loads(p)), further.keys);
     Started out{problem, guess(), p, 0};
-    const int it = problem->polish(out.x, out.p);
-            it >= 0 ? (int)contacts_hold(*problem, out.x, out.p) : -1);
-    for (auto& e : problem->events(out.x, out.p)) fprintf(stderr, "   %s %g\n", e.name.c_str(), e.value);
     if (problem->polish(out.x, out.p) >= 0 && contacts_hold(*problem, out.x, out.p)) return out;
   }
   return std::nullopt;

@@ -239,36 +239,45 @@ CoupledLineArc::Rows CoupledLineArc::pressure_rows(const ArcPoint& at, const Sta
   return out;
 }
 
+CoupledLineArc::Rows CoupledLineArc::force_rows(const ArcPoint& at, const std::vector<Rows>& dragged) const {
+  const int m = stages(), count = points(), inner = interior_tangent();
+  Rows out = Rows::Zero(2 * (count + 1), inner + ends()), begin = Rows::Zero(2, inner + ends());
+  begin.block<2, 2>(0, inner + 6).setIdentity();
+  for (int e = 0; e < elements(); ++e) {
+    const double h = step(at, e);
+    for (int g = 0; g < m; ++g) {
+      auto here = out.middleRows<2>(2 * (e * m + g));
+      here = begin;
+      for (int k = 0; k < m; ++k) here -= h * stage_(g, k) * dragged[e * m + k];
+    }
+    for (int k = 0; k < m; ++k) begin -= h * table_.weight(k) * dragged[e * m + k];
+  }
+  out.bottomRows<2>() = begin;
+  return out;
+}
+
 void CoupledLineArc::linearise(const ArcPoint& at) const {
   const State state = evaluate(at);
   const int m = stages(), count = points(), last = elements(), inner = interior_tangent();
-  const int all = inner + ends(), length = inner + length_end(), travel = length + 1;
+  const int length = inner + length_end(), travel = length + 1;
   std::vector<Rows> motions(count);
   for (int k = 0; k < count; ++k) motions[k] = motion(at, state, k);
-  // Of the forces at the points and at the end, p as it is; then what p adds.
-  Rows n = Rows::Zero(2 * (count + 1), all);
-  for (int g = 0; g <= count; ++g) {
-    n.block<2, 2>(2 * g, inner + 6).setIdentity();
-    for (int k = 0; k < count; ++k) {
-      const double s = share(g, k);
-      if (s == 0.0) continue;
-      const Vector2d part(1.0 - at.arm, 1.0);
-      const Vector2d by_psi = at.friction * part.cwiseProduct(state.slips[k].by_psi),
-                     by_travel = at.friction * part.cwiseProduct(state.slips[k].by_travel);
-      n.middleRows<2>(2 * g) -= at.length * s * state.p(k) * by_psi * motions[k].row(0);
-      n.block<2, 1>(2 * g, travel) -= at.length * s * state.p(k) * by_travel;
-      n.block<2, 1>(2 * g, length) -= s * state.p(k) * state.drag.col(k);
-    }
+  // Of what p drags a length, p as it is; then with its change.
+  const Vector2d parts(at.friction * (1.0 - at.arm), at.friction);
+  std::vector<Rows> dragged(count);
+  for (int k = 0; k < count; ++k) {
+    dragged[k] = state.p(k) * parts.cwiseProduct(state.slips[k].by_psi) * motions[k].row(0);
+    dragged[k].col(travel) += state.p(k) * parts.cwiseProduct(state.slips[k].by_travel);
+    dragged[k].col(length) += state.p(k) / at.length * state.drag.col(k);
   }
   Rows residual = pressure_rows(at, state, motions);
+  const Rows given = force_rows(at, dragged);
   for (int j = 0; j < count; ++j)
-    residual.row(j) +=
-        step(at, j / m) * table_.weight(j % m) * (state.free[j].by_n.transpose() * n.middleRows<2>(2 * j));
+    residual.row(j) += step(at, j / m) * table_.weight(j % m) *
+                       (state.free[j].by_n.transpose() * given.middleRows<2>(2 * j));
   const Rows p = -state.system.solve(residual);
-  for (int g = 0; g <= count; ++g)
-    for (int k = 0; k < count; ++k)
-      if (const double s = share(g, k); s != 0.0)
-        n.middleRows<2>(2 * g) -= at.length * s * state.drag.col(k) * p.row(k);
+  for (int k = 0; k < count; ++k) dragged[k] += state.drag.col(k) * p.row(k);
+  const Rows n = force_rows(at, dragged);
   balance_rows(at, state, motions, n, p);
   const Rows flux = fluxes(state);
   for (const int e : {0, last}) {
@@ -336,30 +345,28 @@ std::pair<double, double> CoupledLineArc::layers(const ArcPoint& at) const {
 
 bvp::ArcSamples CoupledLineArc::sample(const ArcPoint& at) const {
   const int m = stages(), last = elements();
-  const State state = evaluate(at);
+  State state = evaluate(at);
   bvp::ArcSamples out = still_->sample(at);
   const Eigen::Index count = out.sigma.size();
   out.force.resize(2, count), out.pressure.resize(count), out.lever.resize(count);
+  for (int k = 0; k < points(); ++k) out.pressed += step(at, k / m) * table_.weight(k % m) * state.p(k);
+  // Slopes of the nodes' polynomial are of order M at the Gauss points, and with them p; those by the momentum are more exact.
+  // What p adds to the momentum is of the order of the radius: it takes two rounds.
+  const Vector2d first = -state.nodal.col(0);
+  for (int round = 0; round < 2; ++round) {
+    sharpen(at, first, state);
+    solve_pressure(at, state);
+  }
   MatrixXd to_nodes(m + 1, m);
   for (int i = 0; i <= m; ++i)
     to_nodes.row(i) = bvp::lagrange_basis(table_.gauss, table_.lobatto(i)).transpose();
-  for (int k = 0; k < points(); ++k) out.pressed += step(at, k / m) * table_.weight(k % m) * state.p(k);
-  Vector2d force = Eigen::Map<const Vector2d>(at.n);
-  Vector2d momentum = -state.nodal.col(0);
-  Eigen::Vector4d gz;
-  Vector2d d;
+  Vector2d force = Eigen::Map<const Vector2d>(at.n), momentum = first;
   for (int e = 0; e < last; ++e) {
-    Eigen::Matrix2Xd rates(2, m), loads(2, m);
-    for (int g = 0; g < m; ++g) {
-      const int k = e * m + g;
-      rod_.first(state.q.col(k), state.slope.col(k), state.n.col(k), gz, d);
-      gz(1) -= state.across(k) * state.p(k);
-      rates.col(g) = -state.p(k) * state.drag.col(k);
-      loads.col(g) = gz.head<2>();
-    }
+    Eigen::Matrix2Xd rates(2, m);
+    for (int g = 0; g < m; ++g) rates.col(g) = -state.p(e * m + g) * state.drag.col(e * m + g);
     const MatrixXd integral = step(at, e) * table_.integral.transpose();
     out.force.middleCols(e * m, m + 1) = (rates * integral).colwise() + force;
-    out.momentum.middleCols(e * m, m + 1) = (loads * integral).colwise() + momentum;
+    out.momentum.middleCols(e * m, m + 1) = (loads(state, e) * integral).colwise() + momentum;
     out.pressure.segment(e * m, m + 1) = to_nodes * state.p.segment(e * m, m);
     force = out.force.col((e + 1) * m);
     momentum = out.momentum.col((e + 1) * m);
@@ -368,11 +375,38 @@ bvp::ArcSamples CoupledLineArc::sample(const ArcPoint& at) const {
     const double psi = out.q(0, k);
     out.lever(k) = at.arm * at.friction * levers(psi, slip(psi, at.travel)).along;
   }
-  for (int e = 0; e <= last; ++e) {  // where elements end p is what flows there
-    const double w = state.node_lever(e);
-    if (w != 0.0) out.pressure(e * m) = state.flux(e) / w;
+  for (int e = 0; e <= last; ++e)  // where elements end p is what flows there
+    if (const double w = state.node_lever(e); w != 0.0) out.pressure(e * m) = state.flux(e) / w;
+  return out;
+}
+
+Eigen::Matrix2Xd CoupledLineArc::loads(const State& state, int element) const {
+  const int m = stages();
+  Eigen::Matrix2Xd out(2, m);
+  Eigen::Vector4d gz;
+  Vector2d d;
+  for (int g = 0; g < m; ++g) {
+    const int k = element * m + g;
+    rod_.first(state.q.col(k), state.slope.col(k), state.n.col(k), gz, d);
+    out.col(g) = gz.head<2>() - Vector2d(0.0, state.across(k) * state.p(k));
   }
   return out;
+}
+
+void CoupledLineArc::sharpen(const ArcPoint& at, Vector2d momentum, State& state) const {
+  const int m = stages();
+  for (int e = 0; e < elements(); ++e) {
+    const double h = step(at, e);
+    const Eigen::Matrix2Xd gained = loads(state, e);
+    for (int g = 0; g < m; ++g) {
+      const int k = e * m + g;
+      const Vector2d here = momentum + h * gained * stage_.row(g).transpose();
+      const double psi = state.q(0, k);
+      state.slope.col(k) << here(0) / rod_.bending_stiffness,
+          here(1) / rod_.twisting_stiffness - std::sin(psi) * std::cos(psi);
+    }
+    momentum += h * gained * table_.weight;
+  }
 }
 
 }  // namespace windlass::rod

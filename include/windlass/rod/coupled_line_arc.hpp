@@ -82,6 +82,10 @@ class CoupledLineArc final : public DenseArc {
   void place_points(const bvp::ArcPoint& at, State& out) const;
   void solve_pressure(const bvp::ArcPoint& at, State& out) const;
   void add_balance(const bvp::ArcPoint& at, State& out) const;
+  /// ∂L/∂q at an element's Gauss points, less the moment that p has about t.
+  Eigen::Matrix2Xd loads(const State& state, int element) const;
+  /// Slopes at the Gauss points from the momentum, which is given at the start.
+  void sharpen(const bvp::ArcPoint& at, Eigen::Vector2d momentum, State& state) const;
   /// w p̂ where elements end, as forms in p.
   Rows fluxes(const State& state) const;
   void linearise(const bvp::ArcPoint& at) const override;
@@ -90,6 +94,8 @@ class CoupledLineArc final : public DenseArc {
                                                   int point) const;
   /// Residual of p's equations at given p and n, its change with the list.
   Rows pressure_rows(const bvp::ArcPoint& at, const State& state, const std::vector<Rows>& motions) const;
+  /// Of the forces at the Gauss points and at the end, given those of what is dragged a length.
+  Rows force_rows(const bvp::ArcPoint& at, const std::vector<Rows>& dragged) const;
   void balance_rows(const bvp::ArcPoint& at, const State& state, const std::vector<Rows>& motions,
                     const Rows& n, const Rows& p) const;
 
