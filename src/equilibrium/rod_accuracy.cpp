@@ -223,6 +223,17 @@ double RodProblem::nodal_goal() const {
 double RodProblem::bearable() const { return 2.0 * nodal_goal(); }
 
 Vector RodProblem::refine(Vector x, const Vector& p, int rounds) {
+  bool outgrown_layers = false;
+  for (int i = 0; i < chain_->link_count(); ++i)
+    outgrown_layers |=
+        layers_outgrown(meshes_[i].nodes, layers_of(*chain_, x, loads(p), i), meshes_[i].stages);
+  if (outgrown_layers) {  // first: they would have all of the mesh finer
+    meshes_ = with_layers(*chain_, meshes_, x, loads(p));
+    const std::unique_ptr<chain::Chain> old = std::move(chain_);
+    rebuild();
+    x = chain::transfer_state(*old, *chain_, x, loads(p));
+    if (polish(x, p) < 0) throw NoEquilibrium("Newton failed after the mesh was adapted");
+  }
   bool refined = false;  // with less error asked for, not only distributed evenly
   for (int k = 0; k < rounds; ++k) {
     settle(x, p);
