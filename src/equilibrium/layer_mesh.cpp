@@ -9,8 +9,9 @@ namespace windlass::equilibrium {
 
 namespace {
 
-/// An element in a layer is this part of its width at the edge: a polynomial of degree 5 then misses 3e-8 of exp(−x/w).
-constexpr double part = 0.5;
+/// An element in a layer is as long as its width at the edge: a polynomial of degree 5 then misses 2e-6 of exp(−x/w), the flux
+/// at its ends far less.
+constexpr double part = 1.0;
 /// Layers narrower than this part of a line are forces at its edge.
 constexpr double narrowest = 1e-6;
 

@@ -295,7 +295,7 @@ void CoupledLineArc::linearise(const ArcPoint& at) const {
 void CoupledLineArc::balance_rows(const ArcPoint& at, const State& state, const std::vector<Rows>& motions,
                                   const Rows& n, const Rows& p) const {
   const int m = stages(), inner = interior_tangent(), length = inner + length_end(), travel = length + 1;
-  matrix_.setZero(inner + ends(), inner + ends());
+  Rows all = Rows::Zero(inner + ends(), inner + ends());
   Eigen::Vector4d gz;
   Eigen::Matrix4d hz;
   Vector2d d;
@@ -314,15 +314,16 @@ void CoupledLineArc::balance_rows(const ArcPoint& at, const State& state, const 
     for (int i = 0; i <= m; ++i)
       for (int j = 0; j < 2; ++j) {
         const int row = place(e * m + i, j);
-        matrix_.row(row) +=
+        all.row(row) +=
             h * w * table_.value(g, i) * change.row(j) + w * table_.slope(g, i) * change.row(2 + j);
-        matrix_(row, length) += part * w * table_.value(g, i) * gz(j);
+        all(row, length) += part * w * table_.value(g, i) * gz(j);
       }
-    matrix_.middleRows<2>(inner + 6) -= h * w * (dd * motions[k].topRows<2>());
-    matrix_.block<2, 1>(inner + 6, length) -= part * w * d;
+    all.middleRows<2>(inner + 6) -= h * w * (dd * motions[k].topRows<2>());
+    all.block<2, 1>(inner + 6, length) -= part * w * d;
   }
-  matrix_.middleRows<2>(length + 1) = n.bottomRows<2>();
-  matrix_.block<2, 2>(length + 1, inner + 6) -= Eigen::Matrix2d::Identity();
+  all.middleRows<2>(length + 1) = n.bottomRows<2>();
+  all.block<2, 2>(length + 1, inner + 6) -= Eigen::Matrix2d::Identity();
+  matrix_ = all;
 }
 
 Eigen::VectorXd CoupledLineArc::metric(const ArcPoint& at) const {

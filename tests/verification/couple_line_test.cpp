@@ -62,4 +62,19 @@ BOOST_AUTO_TEST_CASE(agrees_with_shooting) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(tends_to_the_line_without_moment_at_the_rate_of_the_radius) {
+  // F0 = F + F' r + ..: of what three radii say of F each difference is half the one before, and the last is near to F.
+  for (const scene::Travel travel : {scene::Travel::blocked, scene::Travel::free}) {
+    scene::Scene without = lying(0.01, travel);
+    without.motion.friction_couple = false;
+    const double none = *state_of(without).F0;
+    const double far = *state_of(lying(0.04, travel)).F0 - none,
+                 near = *state_of(lying(0.02, travel)).F0 - none,
+                 nearer = *state_of(lying(0.01, travel)).F0 - none;
+    BOOST_TEST_MESSAGE("F0 - F " << far << " " << near << " " << nearer << " of " << none);
+    BOOST_TEST(std::abs(near / nearer - 2.0) < 0.2);  // what is left is of second order in r
+    BOOST_TEST(std::abs(far / near - 2.0) < 0.4);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -63,7 +63,7 @@ class CoupledLineArc final : public DenseArc {
     Eigen::Vector2d displacement;
   };
   /// Forms of the change of something with the arc's list, as rows.
-  using Rows = Eigen::MatrixXd;
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
   int points() const { return elements() * stages(); }
   double step(const bvp::ArcPoint& at, int element) const {
