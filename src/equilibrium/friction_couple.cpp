@@ -11,7 +11,7 @@ using chain::Stretch;
 bool carries_couple(const Topology& topology) {
   for (int i = 0; i < static_cast<int>(topology.stretches.size()); ++i) {
     if (topology.lies_flat(i) || topology.touches_flat(i) || topology.seat(i).stop >= 0) return false;
-    if (topology.stretches[i] == Stretch::line && topology.obstacle(i) == 0 && topology.half && i == 0)
+    if (topology.stretches[i] == Stretch::line && (topology.obstacle(i) != 0 || (topology.half && i == 0)))
       return false;
   }
   return topology.couplings().empty();
