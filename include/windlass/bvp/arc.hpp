@@ -20,8 +20,8 @@
 namespace windlass::bvp {
 
 /// Largest sizes an arc's ends can have: two quaternions (3 + 3), a force (3) and the length (1); of a line that slips with the
-/// moment of its friction (3 + 3), (2), (1) and what it changes (2). 14, not 11: aligned as 10 are, arcs without it round alike.
-inline constexpr int max_ends = 14;
+/// moment of its friction (3 + 3), (2), (1) and what it changes (2).
+inline constexpr int max_ends = 11;
 using EndsVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_ends, 1>;
 using EndsMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_ends, max_ends>;
 
