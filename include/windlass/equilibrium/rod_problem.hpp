@@ -18,6 +18,8 @@
 /// Equilibria of a rod as the continuation library sees them.
 namespace windlass::equilibrium {
 
+struct ContactEvent;
+
 using chain::Topology;
 using continuation::Vector;
 
@@ -153,6 +155,16 @@ class RodProblem final : public continuation::Problem {
   double target(const chain::Chain& chain, const Vector& x, const contact::Loads& loads) const;
 
  private:
+  /// What follows an event, and whether its state was found; else it is a guess.
+  struct After {
+    std::optional<continuation::Transition> transition = {};
+    bool known = true;
+  };
+  After after_event(const ContactEvent& event, const chain::Profile& shape, const Vector& x, const Vector& p);
+  /// The same on denser or sparser touches where lines between strands are rows of them; nullopt: there are none, or nothing was found.
+  std::optional<continuation::Transition> after_event_on_other_touches(const ContactEvent& event,
+                                                                       const chain::Profile& shape,
+                                                                       const Vector& x, const Vector& p);
   void rebuild();
   /// Negative directions of one parity; counted once a state. The last factorisation, if it was not, was made there.
   /// Of eigenvalues whose sign rounding has made as many are counted as brings the count closest to `last`; −1: none.
