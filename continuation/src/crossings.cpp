@@ -47,7 +47,7 @@ class Search {
   /// @param depth  halvings since the interval held `shared` points
   void branch_points(const Sample& lo, const Sample& hi, int depth = 0, int shared = 0) {
     const int multiplicity = multiplicity_between(lo, hi);
-    if (multiplicity <= 0 || !found.refusal.empty()) return;
+    if (multiplicity <= 0 || !found.refusal.empty() || counts_are_rounding) return;
     if (multiplicity != shared) depth = 0;
     // The reduced equations cost about five factorisations, a halving two: they are tried early, then now and then.
     std::string why;
@@ -61,6 +61,13 @@ class Search {
     // On a branch the two ends come together as fast as the interval shrinks; on two branches they stay apart.
     if (may_refuse_ && hi.s < edge_ && apart(lo, hi)) {
       found.refusal = "the corrector has left the branch: the index changes where no branch point is";
+      return;
+    }
+    // Counts that rounding changes from sample to sample, as on a branch that is nearly vertical, would be halved without end.
+    constexpr int most = 150;
+    if (++halvings_ > most) {
+      if (!counts_are_rounding) found.points.push_back(unpolished(segment_, lo, hi, multiplicity, why));
+      counts_are_rounding = true;
       return;
     }
     const Sample* middle = halfway(lo, hi, depth);
@@ -116,6 +123,7 @@ class Search {
   }
 
   Crossings found;
+  bool counts_are_rounding = false;  ///< the search ended without an end
 
  private:
   int multiplicity_between(const Sample& lo, const Sample& hi) const {
@@ -213,6 +221,7 @@ class Search {
   const Options& options_;
   double tolerance_, edge_;
   bool may_refuse_;
+  int halvings_ = 0;
 };
 
 }  // namespace
@@ -247,8 +256,12 @@ Crossings locate_crossings(Segment& segment, const Sample& lo, const Sample& hi,
   return std::move(search.found);
 }
 
-std::vector<Located> locate_branch_points(Segment& segment, const Sample& lo, const Sample& hi) {
-  return locate_crossings(segment, lo, hi, nullptr, std::numeric_limits<double>::infinity(), false).points;
+std::optional<std::vector<Located>> locate_branch_points(Segment& segment, const Sample& lo,
+                                                         const Sample& hi) {
+  Search search(segment, std::numeric_limits<double>::infinity(), false);
+  search.branch_points(lo, hi);
+  if (search.counts_are_rounding) return std::nullopt;
+  return std::move(search.found.points);
 }
 
 }  // namespace continuation

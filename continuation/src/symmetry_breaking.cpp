@@ -17,7 +17,9 @@ struct Piece {
   std::vector<Located> found;
 };
 
-std::optional<Piece> in_the_large(Segment& segment, const Sample& lo, const Sample& hi, std::string& why) {
+/// @param counts  becomes false where its directions are counted with more error than they change by: it is not asked again
+std::optional<Piece> in_the_large(Segment& segment, const Sample& lo, const Sample& hi, bool& counts,
+                                  std::string& why) {
   const double from = segment.parameter(lo), to = segment.parameter(hi);
   try {
     const std::optional<Unrestricted> start = segment.problem()->unrestricted(lo.it.x, lo.it.p);
@@ -31,7 +33,10 @@ std::optional<Piece> in_the_large(Segment& segment, const Sample& lo, const Samp
     const Sample* beyond = base ? large.at(length, false) : nullptr;
     const Sample* end = beyond ? large.at_parameter(to, *base, *beyond, true) : nullptr;
     if (!end) return why = large.failure(), std::nullopt;
-    return Piece{start->problem, locate_branch_points(large, *base, *end)};
+    auto points = locate_branch_points(large, *base, *end);
+    counts = points.has_value();
+    if (!points) return why = "on the unrestricted problem the count of directions is rounding", std::nullopt;
+    return Piece{start->problem, std::move(*points)};
   } catch (const std::domain_error& error) {
     why = error.what();
   } catch (const std::runtime_error& error) {
@@ -78,13 +83,14 @@ Together together(Segment& segment, const Sample& lo, const Sample& hi,
 
 /// @param around  the narrowest piece around this interval that holds a point, which could not be polished; null: there is none
 void search(Segment& segment, const Sample& lo, const Sample& hi, int depth,
-            const std::vector<Located>& restricted, const Piece* around, std::vector<Located>& found) {
+            const std::vector<Located>& restricted, const Piece* around, bool& counts,
+            std::vector<Located>& found) {
   if (lo.breaking_index < 0 || hi.breaking_index < 0 || lo.breaking_index == hi.breaking_index) return;
   if (const Together one = together(segment, lo, hi, restricted); one.point) {
     // Modes of both kinds that come in at once are turned into each other by a symmetry of the problem, as buckling in
     // all planes of an isotropic rod: one point, and the arms that keep the restriction stand for all.
-    search(segment, lo, *one.below, depth + 1, restricted, around, found);
-    search(segment, *one.above, hi, depth + 1, restricted, around, found);
+    search(segment, lo, *one.below, depth + 1, restricted, around, counts, found);
+    search(segment, *one.above, hi, depth + 1, restricted, around, counts, found);
     return;
   }
   // The unrestricted problem costs a solve of twice the size to enter: halved first, where that costs two
@@ -93,8 +99,8 @@ void search(Segment& segment, const Sample& lo, const Sample& hi, int depth,
   const bool alone = lo.index == hi.index && lo.tangent.p * hi.tangent.p > 0.0;
   std::string why;
   std::optional<Piece> piece;
-  if (depth >= first && (depth - first) % between == 0 && alone) {
-    piece = in_the_large(segment, lo, hi, why);
+  if (counts && depth >= first && (depth - first) % between == 0 && alone) {
+    piece = in_the_large(segment, lo, hi, counts, why);
     if (piece && std::any_of(piece->found.begin(), piece->found.end(), is_polished)) {
       std::erase_if(piece->found, std::not_fn(is_polished));
       return add(segment, lo, hi, *piece, found);
@@ -124,8 +130,8 @@ void search(Segment& segment, const Sample& lo, const Sample& hi, int depth,
     }
     return;
   }
-  search(segment, lo, *middle, depth + 1, restricted, around, found);
-  search(segment, *middle, hi, depth + 1, restricted, around, found);
+  search(segment, lo, *middle, depth + 1, restricted, around, counts, found);
+  search(segment, *middle, hi, depth + 1, restricted, around, counts, found);
   // Halving made the change vanish: the count at one end was roundoff close to an eigenvalue's touch.
 }
 
@@ -134,7 +140,8 @@ void search(Segment& segment, const Sample& lo, const Sample& hi, int depth,
 std::vector<Located> locate_symmetry_breaking(Segment& segment, const Sample& lo, const Sample& hi,
                                               const std::vector<Located>& restricted) {
   std::vector<Located> found;
-  search(segment, lo, hi, 0, restricted, nullptr, found);
+  bool counts = true;
+  search(segment, lo, hi, 0, restricted, nullptr, counts, found);
   return found;
 }
 

@@ -75,7 +75,9 @@ Crossings locate_crossings(Segment& segment, const Sample& lo, const Sample& hi,
                            double edge, bool may_refuse);
 
 /// All branch points between two completed samples between which the parameter does not turn.
-std::vector<Located> locate_branch_points(Segment& segment, const Sample& lo, const Sample& hi);
+/// @returns nullopt where counts change from sample to sample by rounding, however near these are
+std::optional<std::vector<Located>> locate_branch_points(Segment& segment, const Sample& lo,
+                                                         const Sample& hi);
 
 /// A branch point that is known by its bracket only; why: what kept it from being located, empty: the segment's failure.
 Located unpolished(Segment& segment, const Sample& lo, const Sample& hi, int multiplicity,
