@@ -100,7 +100,7 @@ int descend(ThickEnergy& energy, double tolerance, VectorXd& x) {
   check(TaoSetGradient(tao, nullptr, thick_slope, &descent));
   check(TaoSetHessian(tao, matrix, preconditioner, thick_curvature, &descent));
   check(TaoSetTolerances(tao, tolerance, 0.0, 0.0));
-  constexpr int most = 300;
+  constexpr int most = 1000;  // slender knots are long on their way
   check(TaoSetMaximumIterations(tao, most));
   KSP ksp = nullptr;
   PC pc = nullptr;
