@@ -72,9 +72,10 @@ class Proposals : public continuation::DiagramObserver {
   Eigen::VectorXd x_, p_;
 };
 
-std::string proposals(const std::string& file, bool diagram) {
+std::string proposals(const std::string& file, bool diagram, double least = 0.0) {
   scene::Scene scene = scene::read_scene(std::filesystem::path(std::getenv("WINDLASS_SCENES")) / file);
-  const scene::Continuation walk = *scene.continuation;
+  scene::Continuation walk = *scene.continuation;
+  walk.to = std::max(walk.to, least);
   constexpr double buckled = 1e-5;  // the straight strut's thrust is undetermined
   scene::set_parameter(scene, walk.parameter, walk.from != 0.0 ? walk.from : buckled);
   continuation::Options options;
@@ -100,9 +101,11 @@ BOOST_AUTO_TEST_SUITE(events)
 
 BOOST_AUTO_TEST_CASE(proposals_on_the_shipped_diagrams) {
   std::string found;
-  for (const char* file :
-       {"capstan-pi.toml", "capstan-2pi.toml", "capstan-2pi-clamped.toml", "capstan-4pi.toml"})
+  for (const char* file : {"capstan-pi.toml", "capstan-2pi.toml", "capstan-2pi-clamped.toml"})
     found += proposals(file, true);
+  // Below, one of the arms turns at T = 0.2995 next to its branch point, and which comes first there is rounding's.
+  constexpr double above_the_turn = 0.3;
+  found += proposals("capstan-4pi.toml", true, above_the_turn);
   for (const char* file : {"capstan-2pi-thick.toml", "strut-between-walls.toml"})
     found += proposals(file, false);
   const std::filesystem::path recorded = std::filesystem::path(__FILE__).parent_path() / "proposals.txt";
