@@ -18,7 +18,7 @@ namespace {
 
 /// What is known of a line between two strands: of places along one of them those of the other and the pressure.
 struct Touched {
-  double s, other, force, span;  ///< force NaN: unknown
+  double s, other, pressure;  ///< pressure NaN: unknown
   bool mirrored;
 };
 
@@ -29,14 +29,14 @@ std::vector<Touched> touched_by(const chain::Profile& profile, const chain::Topo
   for (const chain::Contact& c : profile.contacts) {
     const int joint = c.joint;
     if (c.coupling < 0 || strands.line_of(joint) < 0) continue;
-    double force = NAN, span = 0.0;
+    double pressure = NAN;
     if (strands.inside_line(joint) && !strands.pressed(joint) && !strands.pressed(strands.partner(joint))) {
       const auto [before, after] = strands.neighbours(joint);
-      force = c.force, span = 0.5 * (place(after) - place(before));
+      pressure = std::max(c.force, 0.0) / (0.5 * (place(after) - place(before)));
     }
     const int other = strands.partner(joint);
     const bool mirrored = topology.seat(joint).strand != topology.seat(other).strand || other == joint;
-    out.push_back({place(joint), place(other), force, span, mirrored});
+    out.push_back({place(joint), place(other), pressure, mirrored});
   }
   std::sort(out.begin(), out.end(), [](const Touched& a, const Touched& b) { return a.s < b.s; });
   return out;
@@ -53,14 +53,13 @@ class Course {
     for (const Touched& t : known) {
       if (t.mirrored != mirrored || t.other < low - near || t.other > high + near) continue;
       if (t.s < begin - near || t.s > end + near) continue;
-      if (!std::isnan(t.force)) at_.push_back(t.s), force_.push_back(t.force), span_.push_back(t.span);
+      if (!std::isnan(t.pressure)) at_.push_back(t.s), pressure_.push_back(t.pressure);
       const double sign = mirrored ? -1.0 : 1.0;  // an image runs the other way
       if (t.s > s_.back() && t.s < end && sign * (t.other - other_.back()) > 0.0 &&
           sign * (other_end - t.other) > 0.0)
         s_.push_back(t.s), other_.push_back(t.other);
     }
     s_.push_back(end), other_.push_back(other_end);
-    for (std::size_t k = 0; k < at_.size(); ++k) pressure_.push_back(mean_pressure(k));
     if (!pressure_.empty()) least_ = 0.05 * *std::max_element(pressure_.begin(), pressure_.end());
   }
 
@@ -91,21 +90,13 @@ class Course {
   }
 
  private:
-  /// Forces of touches one beside the other share what presses there, some pull: together they are the pressure.
-  double mean_pressure(std::size_t touch) const {
-    constexpr std::size_t beside = 2;
-    double force = 0.0, span = 0.0;
-    for (std::size_t k = touch - std::min(touch, beside); k <= touch + beside && k < at_.size(); ++k)
-      force += force_[k], span += span_[k];
-    return std::max(force, 0.0) / span;
-  }
   static double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at) {
     const auto after = static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), at) - x.begin());
     if (after == 0) return y.front();
     if (after == x.size()) return y.back();
     return y[after - 1] + (y[after] - y[after - 1]) * (at - x[after - 1]) / (x[after] - x[after - 1]);
   }
-  std::vector<double> s_, other_, at_, force_, span_, pressure_;
+  std::vector<double> s_, other_, at_, pressure_;
   double least_ = 0.0;
 };
 

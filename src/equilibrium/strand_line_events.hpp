@@ -25,7 +25,7 @@ bool touches_too_near(const chain::Profile& profile, const chain::Topology& topo
 inline constexpr double press_apart = 6e-4, press_at_end = 4e-4;
 /// No more touches are laid between two joints than are as far apart as the first, and they are laid anew once nearer than the
 /// second: their forces answer to their places by 192B/h³ [ρ].
-inline constexpr double laid_apart = 1e-3, laid_too_near = 5e-4;
+inline constexpr double laid_apart = 3e-4, laid_too_near = 2e-4;
 /// The middle of a line between a strand and its own image, which an edge, or what else locates itself, comes near: between the edge's
 /// place and its image the pulls of both open the line, by more than it carries; and touches
 /// beyond the middle that come near such a joint [ρ].
