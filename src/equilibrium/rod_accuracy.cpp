@@ -107,26 +107,6 @@ double stretched_rounding(const Loads& at, double target) {
   return rounding * std::max(1.0, 1.0 / std::abs(at.compliance * target));
 }
 
-/// Of the touches inside lines that are laid, not found by tangency: the largest λ e·t, by which H jumps there.
-double jump_of_hamiltonian(const chain::Chain& chain, const Vector& x) {
-  double most = 0.0;
-  for (int k = 0; k < static_cast<int>(chain.couplings().size()); ++k) {
-    if (!chain.couplings()[k].placed && chain.couplings()[k].begin < 0) continue;
-    const chain::Chain::Crossing at = chain.crossing(x, k);
-    most = std::max(most, std::abs(chain.strand_force(x, k) * at.direction.dot(at.first.t)));
-  }
-  return most;
-}
-
-/// max(1, T).
-double largest_pull(const chain::Profile& shape) {
-  return std::max(1.0, shape.pieces.back().n.col(0).norm());
-}
-
-/// What is left of tangency where touches are spaced well is a fifth of that, and less; a touch beside a force that it should be at makes
-/// more. Certificates ask 1e-9 of the sum.
-constexpr double jump_at_touch = 5e-10;
-
 /// Order of the arcs on a mesh, at their ends; a chain of formulas only never asks.
 double order_of(const std::vector<chain::ArcMesh>& meshes) {
   int stages = 1;
@@ -321,9 +301,7 @@ std::optional<Vector> RodProblem::laid_where_needed(const Vector& x, const Vecto
   for (const ContactEvent& event : contact_events(shape, topology_))
     if (event.kind == ContactEvent::Kind::approach && event.redrawn)
       nearer = std::max(nearer, 1.0 - event.value);
-  if (touches_too_near(shape, topology_) ||
-      jump_of_hamiltonian(*chain_, x) > jump_at_touch * largest_pull(shape))
-    nearer = 1.0;
+  if (touches_too_near(shape, topology_)) nearer = 1.0;
   if (nearer > many && nearer < few) return std::nullopt;
   const Strip strip(topology_, joint_places(x, p, shape));
   const Successor next = with_touches(skeleton_of(strip).strip.successor(), shape, topology_);

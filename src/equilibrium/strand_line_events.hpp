@@ -27,8 +27,8 @@ inline constexpr double press_apart = 6e-4, press_at_end = 4e-4;
 /// second: their forces answer to their places by 192B/h³ [ρ].
 inline constexpr double laid_apart = 3e-4, laid_too_near = 2e-4;
 /// The middle of a line between a strand and its own image, which an edge, or what else locates itself, comes near: between the edge's
-/// place and its image the pulls of both open the line, by more than it carries; and touches
-/// beyond the middle that come near such a joint [ρ].
+/// place and its image the pulls of both open the line, by more than it carries. Its touch is laid up to there, or the event would be
+/// lost. And touches beyond the middle that come near such a joint [ρ].
 inline constexpr double at_middle = 4.5e-3, at_touch = 5e-4;
 
 /// Length at which what a link is of, [begin, end] as joints, has the touches of its lines laid anew; nullopt: it is passed, or none of
