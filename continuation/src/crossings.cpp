@@ -66,9 +66,8 @@ class Search {
     // Counts that rounding changes from sample to sample, as on a branch that is nearly vertical, would be halved without end.
     constexpr int most = 150;
     if (++halvings_ > most) {
-      if (!counts_are_rounding) found.points.push_back(unpolished(segment_, lo, hi, multiplicity, why));
       counts_are_rounding = true;
-      return;
+      return found.points.push_back(unpolished(segment_, lo, hi, multiplicity, why));
     }
     const Sample* middle = halfway(lo, hi, depth);
     constexpr double narrow = 1e-3;  // right on a singular point the solve may fail, elsewhere it does not

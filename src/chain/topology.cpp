@@ -77,27 +77,20 @@ std::unique_ptr<Joint> end_joint(const RodKind& rod, const Topology& t, const Ar
   }
   if (closed_form(rod, tail))
     return std::make_unique<planar::FarEnd>(rod.spatial ? 3 : 1, rod.spatial ? 3 : 2);
+  const auto frame = [&]() -> std::unique_ptr<Joint> {
+    if (kind == EndKind::spin_held) return std::make_unique<spatial::HeldEnd>();
+    return std::make_unique<spatial::End>(arc_side, kind == EndKind::clamped);
+  };
   const int joint = arc_side == Side::left ? static_cast<int>(t.stretches.size()) : 0;
   if (const int plate = t.end_touches(joint); plate > 0) {
     if (!rod.spatial || rod.guided) throw std::invalid_argument("no such end touches a plate");
-    std::unique_ptr<Joint> frame;
-    if (kind == EndKind::spin_held)
-      frame = std::make_unique<spatial::HeldEnd>();
-    else
-      frame = std::make_unique<spatial::End>(arc_side, kind == EndKind::clamped);
-    return std::make_unique<spatial::EndOnPlate>(arc_side, std::move(frame), rod.obstacles.pointer(plate));
+    return std::make_unique<spatial::EndOnPlate>(arc_side, frame(), rod.obstacles.pointer(plate));
   }
   if (rod.guided) {
     if (!rod.spatial) throw std::invalid_argument("ends on sliders are computed with the Kirchhoff rod");
-    std::unique_ptr<Joint> frame;
-    if (kind == EndKind::spin_held)
-      frame = std::make_unique<spatial::HeldEnd>();
-    else
-      frame = std::make_unique<spatial::End>(arc_side, kind == EndKind::clamped);
-    return std::make_unique<spatial::GuidedEnd>(arc_side, std::move(frame));
+    return std::make_unique<spatial::GuidedEnd>(arc_side, frame());
   }
-  if (rod.spatial && kind == EndKind::spin_held) return std::make_unique<spatial::HeldEnd>();
-  if (rod.spatial) return std::make_unique<spatial::End>(arc_side, kind == EndKind::clamped);
+  if (rod.spatial) return frame();
   return std::make_unique<planar::End>(arc_side, kind == EndKind::clamped);
 }
 

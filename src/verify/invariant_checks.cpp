@@ -65,8 +65,8 @@ void check_scaling(const Solution& solution, const scene::Scene& scene, const Sc
   const double ends = last.r.rightCols<1>().dot(last.n.rightCols<1>()) - first.r.col(0).dot(first.n.col(0));
   const double pulls = h * length - ends + virial;
   double forces = solution.R_tot + 2.0 * scene.rod_radius * solution.self_force;
-  for (const auto& joint : solution.joints)
-    forces += push_of_plate(joint, solution, shapes_of(scene, 0.0)).dot(joint.r);
+  const std::vector<Shape> shapes = shapes_of(scene, 0.0);
+  for (const auto& joint : solution.joints) forces += push_of_plate(joint, solution, shapes).dot(joint.r);
   const double size = std::max({scales.force, std::abs(pulls), forces, solution.energy});
   // Nothing but the mesh is in this: R_tot is asked for to model.tolerance.
   list.at_most("scaling", std::abs(forces - (pulls - solution.energy)) / size,

@@ -176,24 +176,15 @@ class FlatPressed final : public VectorJoint {
 /// Rod end under its dead pull that touches a plate: w = (x, y, those of the frame), free to slide on the plate, which pushes it
 /// with what its arc's force, three unknowns whose equations are X_b − X_a = ∫ r', has along the plate's normal. Equations here: the
 /// two forces in the plate, which are the pull, and those of the frame, held as by an End or a HeldEnd.
-class EndOnPlate final : public Joint {
+class EndOnPlate final : public PlacedEnd {
  public:
   EndOnPlate(Side arc_side, std::unique_ptr<Joint> frame, SurfacePointer plate)
-      : arc_(arc_side), frame_(std::move(frame)), plate_(std::move(plate)) {}
-  JointKind kind() const override { return JointKind::end; }
-  int ambient() const override { return 2 + frame_->ambient(); }
-  int tangent() const override { return 2 + frame_->tangent(); }
-  std::vector<int> out_of_plane() const override;
+      : PlacedEnd(2, arc_side, std::move(frame)), plate_(std::move(plate)) {}
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
-  void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
-                 SmallMatrix& out) const override;
   SmallVector dead_load(const double* w, const Loads& loads) const override;
-  void retract(const double* w, const double* dw, double* out) const override;
   void adopt(const Place& place, double* w) const override;
 
  private:
-  Side arc_;
-  std::unique_ptr<Joint> frame_;
   SurfacePointer plate_;
 };
 

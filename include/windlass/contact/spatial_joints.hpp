@@ -231,29 +231,47 @@ class HeldEnd final : public Joint {
   void adopt(const Place& place, double* w) const override;
 };
 
+/// Rod end with a place of its own: w = (so many coordinates of the place, those of the frame), the frame held as by an End or a
+/// HeldEnd.
+class PlacedEnd : public Joint {
+ public:
+  PlacedEnd(int places, Side arc_side, std::unique_ptr<Joint> frame)
+      : places_(places), arc_(arc_side), frame_(std::move(frame)) {}
+  JointKind kind() const override { return JointKind::end; }
+  int ambient() const override { return places_ + frame_->ambient(); }
+  int tangent() const override { return places_ + frame_->tangent(); }
+  std::vector<int> out_of_plane() const override;
+  void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
+                 SmallMatrix& out) const override;
+  void retract(const double* w, const double* dw, double* out) const override;
+
+ protected:
+  /// What the arc gets of the frame; the place is zero yet.
+  Attachment attached_frame(Side side, const double* w, const Loads& loads) const;
+  void adopt_frame(const Place& place, double* w) const { frame_->adopt(place, w + places_); }
+  /// 1: the arc that ends here is the right half of the rod; −1.
+  double outward() const { return arc_ == Side::left ? 1.0 : -1.0; }
+
+ private:
+  int places_;
+  Side arc_;
+  std::unique_ptr<Joint> frame_;
+};
+
 /// Rod end on a slider: under its pull it moves along a guide, the line parallel to the pull at `guide_offset` from the axis and at
 /// `guide_height`, and nowhere else. w = (x, those of the frame), x along the pull. What holds the end across the guide is the force of
 /// its arc, three unknowns whose equations are X_b − X_a = ∫ r'; equations here: the force along the guide, which is the pull, and
 /// those of the frame, held as by an End or a HeldEnd.
-class GuidedEnd final : public Joint {
+class GuidedEnd final : public PlacedEnd {
  public:
-  GuidedEnd(Side arc_side, std::unique_ptr<Joint> frame) : arc_(arc_side), frame_(std::move(frame)) {}
-  JointKind kind() const override { return JointKind::end; }
-  int ambient() const override { return 1 + frame_->ambient(); }
-  int tangent() const override { return 1 + frame_->tangent(); }
-  std::vector<int> out_of_plane() const override;
+  GuidedEnd(Side arc_side, std::unique_ptr<Joint> frame) : PlacedEnd(1, arc_side, std::move(frame)) {}
   Attachment attach(Side side, const double* w, const Loads& loads) const override;
-  void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
-                 SmallMatrix& out) const override;
   SmallVector dead_load(const double* w, const Loads& loads) const override;
-  void retract(const double* w, const double* dw, double* out) const override;
   void adopt(const Place& place, double* w) const override;
 
  private:
   /// Direction of the pull.
   Eigen::Vector3d along(const Loads& loads) const;
-  Side arc_;
-  std::unique_ptr<Joint> frame_;
 };
 
 /// End of a free rod along e_x, y = z = 0; see EndKind. x is imposed by the shortening, x = ±(1 − shortening)·half_length, or
