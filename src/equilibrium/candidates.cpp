@@ -307,12 +307,34 @@ std::vector<Successor> become_one(int link, const Profile& profile, const Topolo
   return {out};
 }
 
+/// The end of a line takes what presses right before it, and is where the forces of both together are.
+Successor end_takes_press(const LaidAnew& here, const Profile& profile, const Topology& topology,
+                          const Strip& strip) {
+  Skeleton skeleton = skeleton_of(strip);
+  const auto force = [&](int joint) { return std::max(profile.contact_at(joint)->force, 0.0); };
+  const double end = force(here.line_end), press = force(here.pressed),
+               part = end + press > 0.0 ? press / (end + press) : 0.5;
+  std::vector<double> places;
+  for (const auto& [at, pressed] :
+       {std::pair(here.line_end, here.pressed),
+        std::pair(partner(strip, here.line_end), partner(strip, here.pressed))}) {
+    double& s = skeleton.strip.s[skeleton.joint[at]];
+    s += part * (strip.s[pressed] - s);
+    places.push_back(s);
+  }
+  Successor out = with_touches(skeleton.strip.successor(), profile, topology);
+  for (int j = 0; j < static_cast<int>(out.s.size()); ++j)
+    if (std::find(places.begin(), places.end(), out.s[j]) != places.end()) out.held.push_back(j);
+  return out;
+}
+
 /// The touches of lines laid anew, a line with the own image open about its middle where that is why.
 std::vector<Successor> laid_anew(const LaidAnew& here, const Profile& profile, const Topology& topology,
                                  const Strip& strip) {
   std::vector<Successor> out;
   if (here.middle >= 0)
     out = line_opens_about(here.middle, here.begin + here.end - here.middle, profile, topology, strip);
+  if (here.pressed >= 0) out.push_back(end_takes_press(here, profile, topology, strip));
   out.push_back(with_touches(skeleton_of(strip).strip.successor(), profile, topology));
   return out;
 }
@@ -362,12 +384,12 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
         return {end_of_rod(strip)};
       }
       if (auto flat = flat_line_begins_or_ends(event.place, profile, strip); !flat.empty()) return flat;
+      if (const auto fewer = line_with_fewer_touches(profile, topology, event.place, strip)) return {*fewer};
       if (const auto anew = laid_anew_at(profile, chain::Strands(topology), event.place);
           anew && event.redrawn)
         return laid_anew(*anew, profile, topology, strip);
       if (event.redrawn && part_of_carried(profile, chain::Strands(topology), event.place))
         return become_one(event.place, profile, topology, strip);
-      if (const auto fewer = line_with_fewer_touches(profile, topology, event.place, strip)) return {*fewer};
       return after_skeleton(event, profile, topology, strip);
     case Kind::force:
       for (const int link : {event.place - 1, event.place})

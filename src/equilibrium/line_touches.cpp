@@ -16,27 +16,66 @@ using chain::Strands;
 
 namespace {
 
+constexpr double quarter = 0.25;  ///< of what is carried, by which strands come nearer between touches as they are laid
+
 /// What is known of a line between two strands: of places along one of them those of the other and the pressure.
 struct Touched {
   double s, other, pressure;  ///< pressure NaN: unknown
   bool mirrored;
 };
 
+/// Pressure of lines by the forces of the touches that stand for it. Those of touches laid closely answer to what rounding leaves of
+/// their distances: it is their mean over as much of the line as would open by what is asked of touches, up to what presses on it.
+class Pressure {
+ public:
+  Pressure(const chain::Profile& profile, const Strands& strands) : profile_(profile), strands_(strands) {
+    for (const chain::Contact& c : profile.contacts)
+      if (c.coupling >= 0) force_[c.joint] = c.force;
+  }
+
+  /// NaN where something else presses.
+  double at(int joint) const {
+    if (!stands_for_line(joint)) return NAN;
+    const double opens = 192.0 * profile_.material.bending_stiffness * quarter * carried_between_strands;
+    auto [before, after] = strands_.neighbours(joint);
+    double force = force_.at(joint);
+    while (true) {
+      const double span = 0.5 * (place(after) - place(before));
+      const bool enough = force * std::pow(span, 3) >= opens;
+      const bool more_before = stands_for_line(before), more_after = stands_for_line(after);
+      if (enough || (!more_before && !more_after)) return std::max(force, 0.0) / span;
+      const bool nearer = place(joint) - place(before) < place(after) - place(joint);
+      if (more_before && (nearer || !more_after)) {
+        force += force_.at(before);
+        before = strands_.neighbours(before)[0];
+      } else {
+        force += force_.at(after);
+        after = strands_.neighbours(after)[1];
+      }
+    }
+  }
+  double place(int joint) const { return profile_.pieces[joint].s(0); }
+
+ private:
+  bool stands_for_line(int joint) const {
+    return strands_.inside_line(joint) && !strands_.pressed(joint) && !strands_.pressed(strands_.partner(joint));
+  }
+
+  const chain::Profile& profile_;
+  const Strands& strands_;
+  std::map<int, double> force_;
+};
+
 std::vector<Touched> touched_by(const chain::Profile& profile, const chain::Topology& topology) {
   const Strands strands(topology);
+  const Pressure pressure(profile, strands);
   std::vector<Touched> out;
-  const auto place = [&](int joint) { return profile.pieces[joint].s(0); };
   for (const chain::Contact& c : profile.contacts) {
     const int joint = c.joint;
     if (c.coupling < 0 || strands.line_of(joint) < 0) continue;
-    double pressure = NAN;
-    if (strands.inside_line(joint) && !strands.pressed(joint) && !strands.pressed(strands.partner(joint))) {
-      const auto [before, after] = strands.neighbours(joint);
-      pressure = std::max(c.force, 0.0) / (0.5 * (place(after) - place(before)));
-    }
     const int other = strands.partner(joint);
     const bool mirrored = topology.seat(joint).strand != topology.seat(other).strand || other == joint;
-    out.push_back({place(joint), place(other), pressure, mirrored});
+    out.push_back({pressure.place(joint), pressure.place(other), pressure.at(joint), mirrored});
   }
   std::sort(out.begin(), out.end(), [](const Touched& a, const Touched& b) { return a.s < b.s; });
   return out;
@@ -111,7 +150,7 @@ struct PartEnds {
 std::vector<double> laid_out(const Course& course, double begin, double end, const PartEnds& ends,
                              const chain::Profile& profile, double finer, double& needed) {
   // A force that no touch takes up where it acts spreads over those beside it, the farther the more it tilts the strands.
-  constexpr double quarter = 0.25, denser = 1.5, densest = 5.0;
+  constexpr double denser = 1.5, densest = 5.0;
   const double stiffness = profile.material.bending_stiffness;
   const auto beside = [&](int end) {
     return !ends.presses[end] ? 0.0 : ends.touched[end] ? denser : densest;

@@ -68,15 +68,15 @@ ContactEvent spare_touches(const Profile& profile, const chain::Strands& strands
 
 namespace {
 
-/// Is one of the touches at the place of a joint of the line that ends at another?
-bool pressed_before_end(const chain::Strands& strands, int at, int end) {
+/// The touch at the place of a joint that is of the line which ends at another, and pressed on; −1: none.
+int pressed_before_end(const chain::Strands& strands, int at, int end) {
   const int line = strands.line_of(end);
-  if (line < 0 || strands.inside_line(end) || strands.partner(at) < 0) return false;
+  if (line < 0 || strands.inside_line(end) || strands.partner(at) < 0) return -1;
   for (int j = at - 1; j >= 0 && strands.welded(j); --j)
-    if (strands.pressed(j) && strands.line_of(j) == line) return true;
+    if (strands.pressed(j) && strands.line_of(j) == line) return j;
   for (int j = at + 1; strands.welded(j - 1); ++j)
-    if (strands.pressed(j) && strands.line_of(j) == line) return true;
-  return false;
+    if (strands.pressed(j) && strands.line_of(j) == line) return j;
+  return -1;
 }
 
 /// Inside a line of free strands with their own image, where tangency says.
@@ -92,8 +92,9 @@ std::optional<LaidAnew> laid_anew_at(const Profile& profile, const chain::Strand
   const auto [begin, end] = strands.located_about(link, link + 1);
   int parts = 0;
   for (int i = begin; i < end; ++i) parts += !strands.welded(i);
-  if (pressed_before_end(strands, begin, end) || pressed_before_end(strands, end, begin))
-    return LaidAnew{begin, end, std::max(press_at_end, parts * laid_too_near)};
+  for (const auto& [at, line_end] : {std::pair(begin, end), std::pair(end, begin)})
+    if (const int pressed = pressed_before_end(strands, at, line_end); pressed >= 0)
+      return LaidAnew{begin, end, std::max(press_at_end, parts * laid_too_near), -1, pressed, line_end};
   // An edge comes near the middle of a line, or a touch beyond it, whichever is nearer.
   std::optional<LaidAnew> out;
   const auto left = [&](const LaidAnew& to) {
