@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "continuation/eigen_sparse_instances.hpp"
-
 namespace windlass::chain {
 
 void Block::reset(Eigen::Index size) {
@@ -121,14 +119,16 @@ std::vector<Eigen::Triplet<double>> Block::entries() const {
 }
 
 void Block::copy_to(Eigen::SparseMatrix<double>& out) const {
+  const auto there = [](const Entry& e) { return e.value != 0.0; };
   Eigen::Index count = 0;
-  for (const auto& column : columns_) count += static_cast<Eigen::Index>(column.size());
+  for (const auto& column : columns_) count += std::count_if(column.begin(), column.end(), there);
   out.resize(size_, size_);
   out.resizeNonZeros(count);
   int at = 0;
   for (Eigen::Index c = 0; c < size_; ++c) {
     out.outerIndexPtr()[c] = at;
     for (const Entry& e : columns_[static_cast<std::size_t>(c)]) {
+      if (!there(e)) continue;
       out.innerIndexPtr()[at] = e.row;
       out.valuePtr()[at++] = e.value;
     }

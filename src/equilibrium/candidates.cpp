@@ -315,9 +315,8 @@ Successor end_takes_press(const LaidAnew& here, const Profile& profile, const To
   const double end = force(here.line_end), press = force(here.pressed),
                part = end + press > 0.0 ? press / (end + press) : 0.5;
   std::vector<double> places;
-  for (const auto& [at, pressed] :
-       {std::pair(here.line_end, here.pressed),
-        std::pair(partner(strip, here.line_end), partner(strip, here.pressed))}) {
+  for (const auto& [at, pressed] : {std::pair(here.line_end, here.pressed),
+                                    std::pair(partner(strip, here.line_end), partner(strip, here.pressed))}) {
     double& s = skeleton.strip.s[skeleton.joint[at]];
     s += part * (strip.s[pressed] - s);
     places.push_back(s);

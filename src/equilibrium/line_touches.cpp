@@ -16,7 +16,8 @@ using chain::Strands;
 
 namespace {
 
-constexpr double quarter = 0.25;  ///< of what is carried, by which strands come nearer between touches as they are laid
+constexpr double quarter =
+    0.25;  ///< of what is carried, by which strands come nearer between touches as they are laid
 
 /// What is known of a line between two strands: of places along one of them those of the other and the pressure.
 struct Touched {
@@ -58,7 +59,8 @@ class Pressure {
 
  private:
   bool stands_for_line(int joint) const {
-    return strands_.inside_line(joint) && !strands_.pressed(joint) && !strands_.pressed(strands_.partner(joint));
+    return strands_.inside_line(joint) && !strands_.pressed(joint) &&
+           !strands_.pressed(strands_.partner(joint));
   }
 
   const chain::Profile& profile_;

@@ -36,8 +36,8 @@ inline constexpr double at_middle = 4.5e-3, at_touch = 5e-4;
 struct LaidAnew {
   int begin, end;
   double least;
-  int middle = -1;   ///< joint of a line with the own image, where it is that
-  int pressed = -1;  ///< touch of a line right before its end, where that comes near what presses there
+  int middle = -1;    ///< joint of a line with the own image, where it is that
+  int pressed = -1;   ///< touch of a line right before its end, where that comes near what presses there
   int line_end = -1;  ///< and that end
 };
 std::optional<LaidAnew> laid_anew_at(const chain::Profile& profile, const chain::Strands& strands, int link);

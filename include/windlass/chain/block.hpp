@@ -67,7 +67,7 @@ class Block {
   Eigen::MatrixXd whole() const;
   /// Entries that are not zero.
   std::vector<Eigen::Triplet<double>> entries() const;
-  /// Where something was added, zeros included; of large ones only.
+  /// The same of a large one, in its order; more than half of where something was added may be zero.
   void copy_to(Eigen::SparseMatrix<double>& out) const;
   const Eigen::MatrixXd& stored_whole() const { return whole_; }  ///< of small ones
 
