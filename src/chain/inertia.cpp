@@ -1,8 +1,7 @@
 #include <algorithm>
 
+#include "frontal_inertia.hpp"
 #include "neutral_turn.hpp"
-#include "sparse_inertia.hpp"
-#include "symmetric_factors.hpp"
 #include "windlass/chain/chain.hpp"
 
 namespace windlass::chain {
@@ -179,12 +178,9 @@ Chain::Inertia Chain::inertia(const VectorXd& x, const Loads& loads, Parity pari
   const VectorXd turn = neutral_turn(purpose, numbering, x, loads, dense);
   if (turn.size() > 0) hold(dense, turn, usual_size(dense));
   constexpr double close_to_rounding = 1e-9;  // of the largest entry
-  // Sparse factors do not tell how small their pivots are.
-  if (dense.by_columns()) return {negative + negative_eigenvalues(dense), replaced.empty()};
-  const SymmetricFactors factors(dense.whole());
-  const bool near =
-      replaced.empty() && dense.rows() > 0 && factors.least_pivot() < close_to_rounding * dense.largest();
-  return {negative + factors.negative(), near};
+  const PivotSigns signs = pivot_signs(dense);
+  const bool near = replaced.empty() && dense.rows() > 0 && signs.least < close_to_rounding * dense.largest();
+  return {negative + signs.negative, near};
 }
 
 }  // namespace windlass::chain

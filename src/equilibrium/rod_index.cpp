@@ -97,8 +97,8 @@ int RodProblem::count(const Vector& x, const Vector& p, contact::Parity parity, 
     const chain::Chain::Inertia inertia = chain_->inertia(x, loads, parity);
     negative = inertia.negative;
     // The factors' signs are one choice of those that rounding leaves open: where they say what held at the last point, that
-    // stands, and the spectrum of the block is not asked. It is the dearer the larger the block: that of a rod with many touches
-    // is asked only where its count changes.
+    // stands, and the spectrum of the block is not asked. Pivots of a large block, taken from a part of it at a time, may be small
+    // without that: its spectrum, which is dear, is asked where the count changes.
     const bool asked = last >= 0 || chain_->dense_size() <= chain::Block::large;
     if (inertia.near_rounding && asked && negative != last) {
       const chain::Linearisation linearised(*chain_, rod_, x, loads);

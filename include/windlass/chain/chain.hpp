@@ -204,8 +204,8 @@ class Chain {
   }
   struct Inertia {
     int negative = 0;
-    /// A pivot is so small that rounding may have made its sign, or, in a large matrix, may be; see Variation::doubt.
-    bool near_rounding = false;
+    bool near_rounding =
+        false;  ///< a pivot is so small that rounding may have made its sign; see Variation::doubt
   };
   Inertia inertia(const VectorXd& x, const Loads& loads, contact::Parity parity) const;
 
