@@ -157,13 +157,17 @@ std::vector<double> laid_out(const Course& course, double begin, double end, con
   const auto beside = [&](int end) {
     return !ends.presses[end] ? 0.0 : ends.touched[end] ? denser : densest;
   };
+  // Where spacing or pressure changes along a line, strands are not quite tangent at touches, and H drifts by p²h⁴/144B in all.
+  constexpr double drift = 7e-10;  // of max(1, T): certificates ask for 1e-9
+  const double drifts = 144.0 * drift * std::max(1.0, profile.pieces.front().n.col(0).norm());
   constexpr int samples = 200;
   std::vector<double> sum{0.0};
   const double step = (end - begin) / samples;
   for (int k = 0; k < samples; ++k) {
     const double s = begin + (k + 0.5) * step, p = course.pressed() ? course.pressure(s) : 0.0;
     const double both = 1.0 + std::pow(std::abs(course.rate(s)), 3);  // each gives way over its own span
-    const double most = std::pow(384.0 * stiffness * quarter * carried_between_strands / (p * both), 0.25);
+    const double nearer = 384.0 * quarter * carried_between_strands;
+    const double most = std::pow(stiffness * std::min(nearer, drifts / p) / (p * both), 0.25);
     double density = 1.0 / most;
     density += beside(0) / most * std::exp(-0.5 * (s - begin) / most);
     density += beside(1) / most * std::exp(-0.5 * (end - s) / most);

@@ -210,7 +210,10 @@ std::optional<Vanishing> where_length_vanishes(RodProblem& problem, Vector x, Ve
     states[k] = x;
   }
   const Limit<double> limit = limit_at_zero(values);
-  return Vanishing{limit.value, std::abs(limit.value - limit.before), limit_at_zero(states).value};
+  const Limit<Vector> state = limit_at_zero(states);
+  const double uncertain = (state.value - state.before).lpNorm<Eigen::Infinity>();
+  return Vanishing{limit.value, std::abs(limit.value - limit.before), state.value, values[0], states[0],
+                   uncertain};
 }
 
 double entered_beside_strand(const RodProblem& problem) {

@@ -5,9 +5,6 @@
 #include <tuple>
 #include <utility>
 
-#include "entry.hpp"
-#include "line_touches.hpp"
-#include "strand_line_events.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/equilibrium/rod_problem.hpp"
 
@@ -290,28 +287,6 @@ std::optional<Vector> RodProblem::carried_over(const continuation::Problem& befo
   const chain::Chain& old = *static_cast<const RodProblem&>(before).chain_;
   if (old.joint_count() != chain_->joint_count()) return std::nullopt;  // touches laid anew
   return chain::transfer_state(old, *chain_, x, loads(p));
-}
-
-std::optional<Vector> RodProblem::laid_where_needed(const Vector& x, const Vector& p) {
-  constexpr double few = 0.6, many = 0.03;  // of what is carried, at the place where strands are nearest
-  if (chain_->couplings().empty()) return std::nullopt;
-  const chain::Profile shape = profile(x, p);
-  double nearer = nearer_between_touches(shape, topology_) / carried_between_strands;
-  if (nearer < 0.0) return std::nullopt;
-  for (const ContactEvent& event : contact_events(shape, topology_))
-    if (event.kind == ContactEvent::Kind::approach && event.redrawn)
-      nearer = std::max(nearer, 1.0 - event.value);
-  if (touches_too_near(shape, topology_)) nearer = 1.0;
-  if (nearer > many && nearer < few) return std::nullopt;
-  const Strip strip(topology_, joint_places(x, p, shape));
-  const Successor next = with_touches(skeleton_of(strip).strip.successor(), shape, topology_);
-  if (nearer < many && next.s.size() >= strip.s.size()) return std::nullopt;
-  Entry laid = draft(*this, next, shape, p);
-  if (laid.problem->polish(laid.x, p) < 0) return std::nullopt;
-  topology_ = laid.problem->topology();
-  meshes_ = laid.problem->meshes();
-  rebuild();
-  return laid.x;
 }
 
 std::optional<Vector> RodProblem::remeshed_where_needed(const Vector& x, const Vector& p) {

@@ -179,6 +179,13 @@ std::optional<continuation::Transition::Located> located_vanishing(Entry here, i
         return at.has_value();
       }))
     return std::nullopt;
+  // Forces of touches close to each other answer to what is left of an extrapolation; then the state is one that holds.
+  constexpr double certain = 1e-9;
+  if (at->uncertain > certain) {
+    here.p(0) = at->nearest_p;
+    return continuation::Transition::Located{here.problem, at->nearest_x, here.p,
+                                             std::max(at->precision, std::abs(at->nearest_p - at->p))};
+  }
   here.p(0) = at->p;
   return continuation::Transition::Located{here.problem, at->x, here.p, at->precision};
 }

@@ -51,6 +51,31 @@ bool touches_too_near(const Profile& profile, const chain::Topology& topology) {
   return false;
 }
 
+bool pressed_without_touch(const Profile& profile, const chain::Topology& topology) {
+  constexpr double beyond = 1.3;  // the distance from which on a touch is laid, or that would be its edge
+  const chain::Strands strands(topology);
+  const auto apart = [&](int one, int two) {
+    return std::abs(profile.pieces[one].s(0) - profile.pieces[two].s(0));
+  };
+  const auto without = [&](const std::vector<int>& strand, std::size_t k, int joint) {
+    if (strands.partner(joint) < 0 || strands.inside_line(joint)) return false;
+    if (apart(joint, strand[k]) == 0.0 || apart(joint, strand[k + 1]) == 0.0) return false;
+    const double from_ends = std::min(apart(joint, strand.front()), apart(joint, strand.back()));
+    return from_ends > beyond * press_apart * profile.unit_length;
+  };
+  for (const chain::StrandLine& line : strands.lines())
+    for (const auto* strand : {&line.first, &line.second}) {
+      if (line.on_obstacles) continue;
+      for (std::size_t k = 0; k + 1 < strand->size(); ++k) {
+        const auto [low, high] = std::minmax((*strand)[k], (*strand)[k + 1]);
+        if (!strands.laid(low) && !strands.laid(high)) continue;
+        for (int j = low + 1; j < high; ++j)
+          if (without(*strand, k, j)) return true;
+      }
+    }
+  return false;
+}
+
 int line_of_several(const chain::Strands& strands, int link) {
   const int line = strands.line_of(link);
   return line >= 0 && line == strands.line_of(link + 1) && strands.lines()[line].links() > 1 ? line : -1;

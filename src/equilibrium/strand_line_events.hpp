@@ -20,6 +20,10 @@ double nearer_between_touches(const chain::Profile& profile, const chain::Topolo
 /// another one is divided for goes where tangency says.
 bool touches_too_near(const chain::Profile& profile, const chain::Topology& topology);
 
+/// Does something press on the divided strand of such a line, farther from its ends than touches at such places are laid from, where
+/// the line has none? It has come from an end, or the line has become longer.
+bool pressed_without_touch(const chain::Profile& profile, const chain::Topology& topology);
+
 /// What is pressed on right before the end of a line has no touch there: the end itself takes it. From the second distance on it is laid
 /// without, at the first it is laid with one: F d²/3B of the rod's height over a span to the next touch is below what is carried [ρ].
 inline constexpr double press_apart = 6e-4, press_at_end = 4e-4;

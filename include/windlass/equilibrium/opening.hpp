@@ -65,6 +65,10 @@ bool solve_at_length(RodProblem& problem, Vector& x, Vector& p, int link, double
 struct Vanishing {
   double p, precision;
   Vector x;
+  /// The state with the shortest length that it is extrapolated from, and by how much the extrapolated one may be off.
+  double nearest_p;
+  Vector nearest_x;
+  double uncertain;
 };
 /// @param shortest  length that it is extrapolated from, of four that double
 std::optional<Vanishing> where_length_vanishes(RodProblem& problem, Vector x, Vector p, int link,

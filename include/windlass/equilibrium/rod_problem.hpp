@@ -221,7 +221,8 @@ class RodProblem final : public continuation::Problem {
   double last_error_ = 0.0;                       ///< relative, of the target
   double nodal_error_ = 0.0;                      ///< of frames and places at element ends
   double nodal_floor_ = 0.0, error_floor_ = 0.0;  ///< what refinement did not reduce of them: rounding
-  Vector estimated_x_, estimated_p_;              ///< the state the two belong to
+  double drift_floor_ = 0.0;          ///< what denser touches did not reduce of the drift of H, and of slopes
+  Vector estimated_x_, estimated_p_;  ///< the state the two belong to
 };
 
 }  // namespace windlass::equilibrium
