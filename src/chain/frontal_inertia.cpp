@@ -1,4 +1,4 @@
-#include "frontal_inertia.hpp"
+#include "windlass/chain/frontal_inertia.hpp"
 
 #include <algorithm>
 #include <cmath>

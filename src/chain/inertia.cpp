@@ -1,8 +1,8 @@
 #include <algorithm>
 
-#include "frontal_inertia.hpp"
 #include "neutral_turn.hpp"
 #include "windlass/chain/chain.hpp"
+#include "windlass/chain/frontal_inertia.hpp"
 
 namespace windlass::chain {
 

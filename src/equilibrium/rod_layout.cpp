@@ -72,23 +72,23 @@ std::optional<Vector> RodProblem::laid_where_needed(const Vector& x, const Vecto
   if (well_spaced && !too_much()) return std::nullopt;
   const Strip strip(topology_, joint_places(x, p, shape));
   const Successor skeleton = skeleton_of(strip).strip.successor();
-  std::optional<Vector> out;
+  std::optional<Entry> best;
   // The spacing that the pressure asks for first, but where it is that of now.
-  for (double finer = well_spaced ? denser : 1.0; finer < densest; finer *= denser) {
+  for (double finer = well_spaced ? denser : 1.0; finer < densest && (!best || too_much()); finer *= denser) {
     const Successor next = with_touches(skeleton, shape, topology_, finer);
     if (nearer < many && !too_much() && next.s.size() >= strip.s.size()) break;
     Entry laid = draft(*this, next, shape, p);
     if (laid.problem->polish(laid.x, p) < 0) break;
     const double now = left_in(laid.problem->profile(laid.x, p), laid.problem->topology());
-    if (now > left && (out || well_spaced)) break;  // it is not the spacing's
-    topology_ = laid.problem->topology();
-    meshes_ = laid.problem->meshes();
-    rebuild();
-    out = laid.x, left = now;
-    if (!too_much()) return out;
+    if (now > left && (best || well_spaced)) break;  // it is not the spacing's
+    best = std::move(laid), left = now;
   }
-  drift_floor_ = std::max(drift_floor_, left);
-  return out;
+  if (too_much()) drift_floor_ = std::max(drift_floor_, left);
+  if (!best) return std::nullopt;
+  topology_ = best->problem->topology();
+  meshes_ = best->problem->meshes();
+  rebuild();
+  return best->x;
 }
 
 }  // namespace windlass::equilibrium
