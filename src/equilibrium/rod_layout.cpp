@@ -35,7 +35,8 @@ double drift_of_hamiltonian(const chain::Profile& shape, bool dragged) {
   return (high - low) / (allowed * std::max(1.0, shape.pieces.back().n.col(0).norm()));
 }
 
-/// How little strands are tangent at the touches inside their lines, as a part of what is allowed: by half the distance to the next touch.
+/// How little strands are tangent at the touches inside their lines, as a part of what is allowed: by half the distance
+/// to the next touch.
 double slope_at_touches(const chain::Profile& shape, const chain::Strands& strands) {
   double most = 0.0;
   const auto place = [&](int joint) { return shape.pieces[joint].s(0); };
