@@ -281,13 +281,26 @@ std::vector<Successor> after_skeleton(const ContactEvent& event, const Profile& 
   return out;
 }
 
+/// Where two touches' forces together are: the part of the way from the first to the second.
+double centre_of_forces(const Profile& profile, int first, int second) {
+  const auto force = [&](int joint) { return std::max(profile.contact_at(joint)->force, 0.0); };
+  const double one = force(first), two = force(second);
+  return one + two > 0.0 ? two / (one + two) : 0.5;
+}
+
+/// The joints at these places are known by guess only; one of those that share a place.
+void hold_at(const std::vector<double>& places, Successor& out) {
+  for (int j = 0; j < static_cast<int>(out.s.size()); ++j)
+    if (std::find(places.begin(), places.end(), out.s[j]) != places.end() &&
+        (out.held.empty() || out.s[out.held.back()] != out.s[j]))
+      out.held.push_back(j);
+}
+
 /// Two touches that a touch between them stands for (touch_dip.hpp): where their forces together are.
 std::vector<Successor> become_one(int link, const Profile& profile, const Topology& topology,
                                   const Strip& strip) {
   Skeleton skeleton = skeleton_of(strip);
-  const auto force = [&](int joint) { return std::max(profile.contact_at(joint)->force, 0.0); };
-  const double first = force(link), second = force(link + 1),
-               part = first + second > 0.0 ? second / (first + second) : 0.5;
+  const double part = centre_of_forces(profile, link, link + 1);
   std::vector<double>& s = skeleton.strip.s;
   std::vector<double> places;
   const auto meet = [&](int one, int two) {
@@ -300,10 +313,7 @@ std::vector<Successor> become_one(int link, const Profile& profile, const Topolo
   const auto next = after_length_beside_strand(skeleton.joint[link], skeleton.strip);
   if (!next) return {};
   Successor out = with_touches(*next, profile, topology);
-  for (int j = 0; j < static_cast<int>(out.s.size()); ++j)
-    if (std::find(places.begin(), places.end(), out.s[j]) != places.end() &&
-        (out.held.empty() || out.s[out.held.back()] != out.s[j]))  // once, where touches share a place
-      out.held.push_back(j);
+  hold_at(places, out);
   return {out};
 }
 
@@ -311,9 +321,7 @@ std::vector<Successor> become_one(int link, const Profile& profile, const Topolo
 Successor end_takes_press(const LaidAnew& here, const Profile& profile, const Topology& topology,
                           const Strip& strip) {
   Skeleton skeleton = skeleton_of(strip);
-  const auto force = [&](int joint) { return std::max(profile.contact_at(joint)->force, 0.0); };
-  const double end = force(here.line_end), press = force(here.pressed),
-               part = end + press > 0.0 ? press / (end + press) : 0.5;
+  const double part = centre_of_forces(profile, here.line_end, here.pressed);
   std::vector<double> places;
   for (const auto& [at, pressed] : {std::pair(here.line_end, here.pressed),
                                     std::pair(partner(strip, here.line_end), partner(strip, here.pressed))}) {
@@ -322,8 +330,7 @@ Successor end_takes_press(const LaidAnew& here, const Profile& profile, const To
     places.push_back(s);
   }
   Successor out = with_touches(skeleton.strip.successor(), profile, topology);
-  for (int j = 0; j < static_cast<int>(out.s.size()); ++j)
-    if (std::find(places.begin(), places.end(), out.s[j]) != places.end()) out.held.push_back(j);
+  hold_at(places, out);
   return out;
 }
 

@@ -56,7 +56,7 @@ std::optional<Vector> RodProblem::laid_where_needed(const Vector& x, const Vecto
   constexpr double few = 0.6, many = 0.03;  // of what is carried, at the place where strands are nearest
   constexpr double denser = 1.2, densest = 1.5, forgotten = 0.9, by_chance = 1.2;
   if (chain_->couplings().empty()) return std::nullopt;
-  chain::Profile shape = profile(x, p);
+  const chain::Profile shape = profile(x, p);
   double nearer = nearer_between_touches(shape, topology_) / carried_between_strands;
   if (nearer < 0.0) return std::nullopt;
   for (const ContactEvent& event : contact_events(shape, topology_))
