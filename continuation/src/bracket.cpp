@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace continuation {
 
@@ -25,6 +26,35 @@ void close_in(double x, double& b, double& fb, double& c, double& fc,
   approach(c, fc);
 }
 
+/// What rounding of f does to its zero: seen where f between two ends is larger than at the one of its sign, and both are as small.
+class Rounding {
+ public:
+  Rounding(double lo, double f_lo, double hi, double f_hi)
+      : values_{{lo, f_lo}, {hi, f_hi}}, first_(hi - lo) {}
+
+  void add(double x, double f) { values_.emplace_back(x, f); }
+
+  /// @param f_end    at the end of the bracket where f has the sign of now
+  /// @param f_other  at its other end
+  /// @returns how far the zero may have moved; nullopt: f is smooth as far as can be told
+  std::optional<double> seen(double x, double f, double f_end, double f_other, double width) const {
+    // In a wide bracket f may turn.
+    constexpr double narrow = 1e-4, several = 3.0, clear = 30.0;
+    const auto clearly = [&](double value) { return std::abs(value) >= clear * std::abs(f); };
+    if (!(width < narrow * first_) || std::abs(f) <= std::abs(f_end) || clearly(f_other)) return std::nullopt;
+    double nearest = HUGE_VAL, slope = 0.0;
+    for (const auto& [at, value] : values_)
+      if (clearly(value) && std::abs(at - x) < nearest)
+        nearest = std::abs(at - x), slope = std::abs(value) / nearest;
+    if (slope == 0.0) return std::nullopt;
+    return several * std::abs(f) / slope;
+  }
+
+ private:
+  std::vector<std::pair<double, double>> values_;
+  double first_;
+};
+
 }  // namespace
 
 // Brent 1973, Algorithms for Minimization without Derivatives, ch. 4 (zeroin): [b, c] holds the zero, |f(b)|
@@ -34,6 +64,7 @@ Bracket find_zero(double lo, double f_lo, double hi, double f_hi, double toleran
   double a = lo, fa = f_lo, b = hi, fb = f_hi, c = a, fc = fa;
   double d = b - a, e = d;
   Bracket bracket;
+  Rounding rounding(lo, f_lo, hi, f_hi);
   for (int k = 0; k < 100; ++k) {
     if ((fb > 0.0) == (fc > 0.0) && fb != 0.0 && fc != 0.0) {
       c = a;
@@ -83,6 +114,14 @@ Bracket find_zero(double lo, double f_lo, double hi, double f_hi, double toleran
     const std::optional<double> value = f(next);
     if (!value || !std::isfinite(*value)) {
       close_in(next, b, fb, c, fc, f);
+      break;
+    }
+    const bool as_at_b = (*value > 0.0) == (fb > 0.0);
+    rounding.add(next, *value);
+    if (const auto noise =
+            rounding.seen(next, *value, as_at_b ? fb : fc, as_at_b ? fc : fb, std::abs(c - b))) {
+      bracket.noise = *noise;
+      bracket.converged = true;
       break;
     }
     a = b;

@@ -30,7 +30,9 @@ std::optional<Arm> start_arm(const Point& branch_point, const Tangent& direction
     const double length = std::sqrt(inner(*arm.problem, way, way, scale));
     const double along = std::abs(inner(*arm.problem, way, direction, scale)) / length;
     const double known = std::abs(inner(*arm.problem, way, branch_point.tangent, scale)) / length;
-    if (along < 0.8 || (branch_point.branch_point && along <= known))
+    // An arm that breaks a symmetry leaves at a right angle to the branch, whose tangent rounding turns towards it here.
+    const bool tells = branch_point.branch_point && !branch_point.breaking;
+    if (along < 0.8 || (tells && along <= known))
       return failure = {"the solution found is not on the arm"}, std::nullopt;
     segment.add_events(*sample);
     for (const EventFunction& event : sample->events) {
@@ -61,7 +63,10 @@ struct Directions {
 Directions directions_from(const Point& at, const Options& options) {
   Directions directions;
   Problem& problem = *at.problem;
-  if (at.branch_point && at.branch_point->tangents.size() == 2) {
+  // By the symmetry that is broken arms leave along the kernel. (Next to a fold, where the branch hardly answers to p, the
+  // quadratic terms that tell two tangents apart have few digits.)
+  const bool pitchfork = at.breaking && at.branch_point && at.branch_point->null.right.cols() == 1;
+  if (!pitchfork && at.branch_point && at.branch_point->tangents.size() == 2) {
     directions.list.push_back(at.branch_point->tangents[1]);
   } else {
     const Matrix kernel =

@@ -16,11 +16,14 @@ double tolerance(Segment& segment) {
          std::max(1.0, std::abs(segment.parameter(segment.base())) / options.parameter_scale);
 }
 
-// Precision of the parameter from the parameter's values at the bracket's ends.
-double width(Segment& segment, double lo, double hi) {
-  const Sample* a = segment.at(lo, false);
-  const Sample* b = segment.at(hi, false);
-  return a && b ? std::abs(segment.parameter(*a) - segment.parameter(*b)) : hi - lo;
+// Precision of the parameter from the parameter's values at the bracket's ends, and what rounding of the function adds, as the
+// parameter changes from the base to `end`.
+double width(Segment& segment, const Bracket& bracket, const Sample& end) {
+  const Sample* a = segment.at(bracket.lo, false);
+  const Sample* b = segment.at(bracket.hi, false);
+  const double change = std::abs(segment.parameter(end) - segment.parameter(segment.base()));
+  return (a && b ? std::abs(segment.parameter(*a) - segment.parameter(*b)) : bracket.hi - bracket.lo) +
+         bracket.noise * change / std::abs(end.s);
 }
 
 // What Newton's method left of the error of a sample, in the parameter: the last increment where it was too small to be
@@ -66,7 +69,7 @@ Located locate_fold(Segment& segment, const Sample& lo, const Sample& hi) {
   // p is flat at a fold: its error is half the slope at the end times the bracket.
   const double unit = segment.options().parameter_scale;
   const double slope = std::max(std::abs(fold.sample.tangent.p), unit * (bracket.hi - bracket.lo));
-  fold.precision = slope * (bracket.hi - bracket.lo);
+  fold.precision = slope * (bracket.hi - bracket.lo + bracket.noise);
   fold.index = lo.index;
   fold.index_after = hi.index;
   if (!bracket.converged) fold.note = "bracket not converged: " + segment.failure();
@@ -162,7 +165,7 @@ std::optional<Located> locate_first_event(Segment& segment, const Sample& hi, co
     event.sample = best ? *best : segment.base();
     event.lo = bracket.lo;
     event.hi = bracket.hi;
-    event.precision = width(segment, bracket.lo, bracket.hi) + solved_to(segment, event.sample);
+    event.precision = width(segment, bracket, *top) + solved_to(segment, event.sample);
     const double narrow = 1e-5 * segment.options().parameter_scale;
     if (!bracket.converged && (event.precision > narrow || first->passes)) {
       event.note = "bracket not converged: " + segment.failure();
@@ -210,7 +213,7 @@ std::optional<Located> locate_function(Segment& segment, const UserFunction& fun
   located.sample = *best;
   located.lo = bracket.lo;
   located.hi = bracket.hi;
-  located.precision = width(segment, bracket.lo, bracket.hi) + solved_to(segment, *best);
+  located.precision = width(segment, bracket, hi) + solved_to(segment, *best);
   located.index = located.index_after = best->index;
   if (!bracket.converged) located.note = "bracket not converged: " + segment.failure();
   return located;

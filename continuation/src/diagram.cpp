@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "way_back.hpp"
+
 namespace continuation {
 namespace {
 
@@ -54,15 +56,37 @@ class Tracer {
       diagram().branches.push_back(Branch{id, next.depth, origin, next.start.count, 0, {}});
       state_.first_special = static_cast<int>(diagram().specials.size());
       observer_.on_branch_start(branch());
+      if (id == 0 && limits_.from_behind) return report_behind(next.start);
       return true;
     }
     return false;
+  }
+
+  /// What lies behind the start, from its far end on; false: stopped, with nothing reported.
+  bool report_behind(const Arm& start) {
+    WayBack behind(start, options_);
+    while (const Point* point = behind.step()) {
+      observer_.on_way_back(*point);
+      if (!observer_.should_stop()) continue;
+      diagram().stopped = true;
+      end_branch(End{End::Kind::stopped, "stopped"});
+      return false;
+    }
+    if (behind.end().kind != End::Kind::target)
+      diagram().lost.push_back(branch_name(0) + ": back from its start, " + behind.end().reason);
+    for (Point& point : behind.reversed()) {
+      ++branch().points;
+      report(std::move(point));
+    }
+    reported_start_ = true;
+    return true;
   }
 
   /// Goes along the branch in progress to its end, or to where the observer stops it.
   void walk() {
     Walker& walker = *state_.walker;
     while (std::optional<Point> point = walker.step()) {
+      if (std::exchange(reported_start_, false) && point->type == PointType::start) continue;
       ++branch().points;
       if (const std::optional<End> joined = report(std::move(*point))) return end_branch(*joined);
       if (!walker.at_rest()) continue;
@@ -209,6 +233,7 @@ class Tracer {
   DiagramOptions limits_;
   DiagramObserver& observer_;
   DiagramState state_;
+  bool reported_start_ = false;  ///< of the branch in progress, with what lies behind it
 };
 
 }  // namespace

@@ -185,7 +185,7 @@ bool LocusWalker::queue_degenerate_point(const Step& step, const Matrix& jacobia
     special.problem = problem_->clone();
     special.null = system_->refreshed();
     special.note = degeneracy_note(kind_);
-    special.precision = bracket.hi - bracket.lo;
+    special.precision = bracket.hi - bracket.lo + bracket.noise;
     special.ds = bracket.best;
     queue_.push_back(std::move(special));
   }

@@ -226,6 +226,22 @@ BOOST_AUTO_TEST_CASE(find_zero_shuts_in) {
   BOOST_TEST(partial.hi == 1.0);
 }
 
+BOOST_AUTO_TEST_CASE(find_zero_ends_where_its_function_is_rounding) {
+  // A zero at 1/√2, with noise of 1e-6: no bracket of 1e-12 tells more of it than one as wide as the noise.
+  const double zero = std::sqrt(0.5), noise = 1e-6;
+  int calls = 0;
+  const auto f = [&](double x) {
+    ++calls;
+    return std::optional<double>(2.0 * (x - zero) + 0.5 * (x - zero) * (x - zero) +
+                                 noise * std::sin(1e13 * x));
+  };
+  const auto bracket = find_zero(0.0, *f(0.0), 1.0, *f(1.0), 1e-12, f);
+  BOOST_TEST(bracket.converged);
+  BOOST_TEST(calls < 20);
+  BOOST_TEST(std::abs(bracket.best - zero) <= bracket.noise + bracket.hi - bracket.lo);
+  BOOST_TEST(bracket.noise < 10.0 * noise);
+}
+
 BOOST_AUTO_TEST_CASE(default_inner_and_dual_agree) {
   class Plain : public AlgebraicProblem {
    public:

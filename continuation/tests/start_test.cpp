@@ -74,6 +74,70 @@ BOOST_AUTO_TEST_CASE(a_diagram_from_a_branch_point_has_all_four_ways) {
   BOOST_TEST(diagram.specials.size() == 1u);
 }
 
+namespace {
+
+/// Keeps all that is reported.
+struct Kept : DiagramObserver {
+  void on_point(const Branch&, const Point& point) override { points.push_back(point); }
+  void on_way_back(const Point&) override { ++way; }
+  bool should_stop() override { return way == stop_at; }
+  std::vector<Point> points;
+  int way = 0, stop_at = -1;
+};
+
+Diagram from_inside(const std::shared_ptr<Problem>& problem, double x, double p, Kept& kept) {
+  Options options;
+  options.lower = -1.0;
+  options.upper = options.target = 1.0;
+  DiagramOptions limits;
+  limits.from_behind = true;
+  return trace_diagram(problem, vector({x}), vector({p}), options, limits, kept);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(inside_a_branch_that_is_reported_from_its_beginning) {
+  // The pitchfork's trivial branch, found at p = 1/4, where its branch point is behind already.
+  Kept kept;
+  const Diagram diagram =
+      from_inside(scalar([](double x, const Vector& p) { return -p[0] * x + x * x * x; }), 0.0, 0.25, kept);
+  BOOST_TEST(diagram.lost.empty());
+  BOOST_REQUIRE_EQUAL(diagram.branches.size(), 3u);  // and its arms
+  const auto of_first = kept.points.begin() + diagram.branches[0].points;
+  const std::vector<Point> first(kept.points.begin(), of_first);
+  BOOST_TEST(first.front().p[0] == -1.0);
+  BOOST_TEST((first.front().type == PointType::start));
+  BOOST_TEST(first.back().p[0] == 1.0);
+  BOOST_TEST(of_type(first, PointType::start).size() == 1u);
+  const auto crossed = of_type(first, PointType::branch_point);
+  BOOST_REQUIRE_EQUAL(crossed.size(), 1u);
+  BOOST_TEST(crossed[0].label == "B1");
+  BOOST_TEST(crossed[0].index == 0);
+  BOOST_TEST(crossed[0].index_after == 1);
+  for (std::size_t k = 1; k < first.size(); ++k) {
+    BOOST_TEST(first[k].p[0] > first[k - 1].p[0]);
+    BOOST_TEST(first[k].path_length > first[k - 1].path_length);
+    BOOST_TEST(first[k].tangent.p > 0.0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(inside_a_branch_that_does_not_come_from_its_bound) {
+  // x² = p + 1/2: back from p = 0 there is a fold, and no p = −1.
+  Kept kept;
+  const Diagram diagram = from_inside(scalar([](double x, const Vector& p) { return p[0] + 0.5 - x * x; }),
+                                      std::sqrt(0.5), 0.0, kept);
+  BOOST_REQUIRE_EQUAL(diagram.lost.size(), 1u);
+  BOOST_TEST(diagram.lost[0].find("back from its start") != std::string::npos);
+  BOOST_TEST(of_type(kept.points, PointType::fold).size() == 1u);
+  BOOST_TEST(kept.points.back().p[0] == 1.0);
+  Kept impatient;
+  impatient.stop_at = 2;
+  const Diagram stopped = from_inside(scalar([](double x, const Vector& p) { return p[0] + 0.5 - x * x; }),
+                                      std::sqrt(0.5), 0.0, impatient);
+  BOOST_TEST(stopped.stopped);
+  BOOST_TEST(impatient.points.empty());
+}
+
 BOOST_AUTO_TEST_CASE(with_a_tangent_on_a_branch_point) {
   Options options;
   options.lower = -1.0;

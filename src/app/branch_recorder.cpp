@@ -98,6 +98,13 @@ std::vector<std::string> BranchRecorder::warnings() const {
 
 void BranchRecorder::on_branch_start(const Branch&) { in_branch_ = 0; }
 
+void BranchRecorder::on_way_back(const Point& point) {
+  if (!progress_.due()) return;
+  auto& problem = dynamic_cast<RodProblem&>(*point.problem);
+  progress_.update(fmt::format("on the way to where it begins: {} = {:.6g}", writer_.info().parameter,
+                               problem.as_given(point.p(0))));
+}
+
 void BranchRecorder::add_eigenvalues(Solution& solution, const Point& point) {
   const auto begin = Clock::now();
   auto& problem = dynamic_cast<RodProblem&>(*point.problem);

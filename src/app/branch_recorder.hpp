@@ -22,6 +22,7 @@ class BranchRecorder final : public continuation::DiagramObserver {
                  bool spectra, bool quiet);
 
   void on_branch_start(const continuation::Branch& branch) override;
+  void on_way_back(const continuation::Point& point) override;
   void on_point(const continuation::Branch& branch, const continuation::Point& point) override;
   void on_special_point(const continuation::Branch& branch, const continuation::Point& point) override;
   void on_branch_end(const continuation::Branch& branch) override;

@@ -136,9 +136,12 @@ int run_branches(const BranchRequest& request, const std::string& command,
                     return resume_diagram(std::move(state), setup.options, limits, recorder);
                   });
   }
-  const equilibrium::Started start = first_state(setup);  // before the folder is made
+  const FirstState first = first_state(setup);  // before the folder is made
+  const equilibrium::Started& start = first.state;
+  continuation::DiagramOptions way = limits;
+  way.from_behind = first.inside;
   return record(output::RunWriter::create(folder, request.scene, options), [&](BranchRecorder& recorder) {
-    return trace_diagram(start.problem, start.x, start.p, setup.options, limits, recorder);
+    return trace_diagram(start.problem, start.x, start.p, setup.options, way, recorder);
   });
 }
 

@@ -123,15 +123,21 @@ BranchSetup set_up_branch(const BranchRequest& request) {
   return setup;
 }
 
-equilibrium::Started first_state(const BranchSetup& setup) {
+FirstState first_state(const BranchSetup& setup) {
   const std::vector<std::string> keys{setup.key};
-  if (!setup.stored) return found_first(setup.scene, keys);
+  if (!setup.stored) {
+    const bool half = setup.scene.half_turn();
+    if (auto knot =
+            equilibrium::knot_between(setup.scene, half, setup.key, setup.options.lower, setup.options.upper))
+      return {*knot, true};
+    return {found_first(setup.scene, keys)};
+  }
   const auto problem = equilibrium::reopen(setup.scene, *setup.stored, keys);
   equilibrium::Started start{problem, setup.stored->state, problem->parameters(), 0};
-  if (setup.singular) return beside(start, setup.options.direction);
+  if (setup.singular) return {beside(start, setup.options.direction)};
   if (!equilibrium::leave_event(*start.problem, start.x, start.p))
     throw equilibrium::NoEquilibrium("no state was found beside the event");
-  return start;
+  return {start};
 }
 
 }  // namespace windlass::app

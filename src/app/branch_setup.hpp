@@ -19,7 +19,13 @@ struct BranchSetup {
 /// @throws InputError when the scene has no [continuation], or the stored point does not exist
 BranchSetup set_up_branch(const BranchRequest& request);
 
+struct FirstState {
+  equilibrium::Started state;
+  bool inside =
+      false;  ///< the branch, that begins at the scene's parameter, is found at another one of its own
+};
+
 /// The first equilibrium. @throws equilibrium::NoEquilibrium
-equilibrium::Started first_state(const BranchSetup& setup);
+FirstState first_state(const BranchSetup& setup);
 
 }  // namespace windlass::app

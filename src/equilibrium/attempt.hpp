@@ -9,6 +9,8 @@ namespace windlass::equilibrium {
 
 /// Stages an element of a first mesh.
 inline constexpr int start_stages = 6;
+/// Between touches that stand for a line, which are near each other, and many.
+inline constexpr int stages_along_strand = 4;
 
 /// A first mesh for a stretch of this length.
 chain::ArcMesh first_mesh(chain::Stretch stretch, const contact::Loads& loads, double length);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "attempt.hpp"
 #include "windlass/equilibrium/opening.hpp"
 #include "windlass/equilibrium/start.hpp"
 
@@ -110,6 +111,7 @@ Entry draft(const RodProblem& from, const Successor& next, const chain::Profile&
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const double length = next.s[i + 1] - next.s[i];
     const bool along_strand = strands.along(static_cast<int>(i));
+    if (meshes[i].stages > 0) meshes[i].stages = along_strand ? stages_along_strand : start_stages;
     if ((now[i] == chain::Stretch::line || along_strand) && length > 0.0 && std::isfinite(length))
       meshes[i].nodes = inherited(shape, next.s[i], next.s[i + 1]);
     if (along_strand) continue;  // many, and each as short as need be

@@ -28,8 +28,8 @@ struct Denser {
   double part;  ///< that distances between touches are of those before
 };
 
-Denser with_denser_touches(Entry& from) {
-  constexpr double finer = 2.0, enough = 0.7;
+Denser with_denser_touches(Entry& from, double finer) {
+  constexpr double enough = 0.7;
   const chain::Profile shape = from.problem->profile(from.x, from.p);
   const Topology& topology = from.problem->topology();
   const Strip strip(topology, from.problem->joint_places(from.x, from.p, shape));
@@ -58,10 +58,16 @@ const ContactEvent* nearest(const std::vector<ContactEvent>& events, const Conta
 /// The event of the state at p, from one nearby.
 std::optional<ContactEvent> event_at(Entry& at, const ContactEvent& like) {
   if (at.problem->polish(at.x, at.p) < 0) return std::nullopt;
-  const std::vector<ContactEvent> events =
-      contact_events(at.problem->profile(at.x, at.p), at.problem->topology());
+  const chain::Profile shape = at.problem->profile(at.x, at.p);
+  const std::vector<ContactEvent> events = contact_events(shape, at.problem->topology());
   const ContactEvent* found = nearest(events, like);
-  return found ? std::optional(*found) : std::nullopt;
+  if (!found) return std::nullopt;
+  ContactEvent out = *found;
+  // A touch about to meet the nearer ones is not judged by its curvature, which it has all the same.
+  if (out.kind == Kind::curvature)
+    for (const chain::Contact& touch : shape.contacts)
+      if (touch.joint == out.place && touch.coupling >= 0) out.value = touch.gap_curvature;
+  return out;
 }
 
 /// Distance in p(0) at which an arc beside a touch of strands has the same length as with fewer touches.
@@ -102,13 +108,16 @@ std::optional<double> layout_precision(const RodProblem& problem, const Vector& 
     const auto here = std::find_if(events.begin(), events.end(),
                                    [&](const ContactEvent& other) { return other.name() == event; });
     if (here == events.end()) return false;
-    const Denser denser = with_denser_touches(own);
     const bool length = here->kind == Kind::length && problem.topology().beside_strand(here->place);
-    const auto moved = length ? moved_length(own, denser, here->place) : moved_zero(*here, denser.entry);
-    const double ratio = denser.part * denser.part;  // what touches h apart move goes with h²
-    if (!moved || !(ratio < 1.0)) return false;
-    precision = std::min(safety * std::abs(*moved) / (1.0 - ratio), most * std::max(1.0, std::abs(p(0))));
-    return true;
+    for (const double finer : {2.0, 1.5, 3.0}) {  // of some no state may be found
+      const Denser denser = with_denser_touches(own, finer);
+      const auto moved = length ? moved_length(own, denser, here->place) : moved_zero(*here, denser.entry);
+      const double ratio = denser.part * denser.part;  // what touches h apart move goes with h²
+      if (!moved || !(ratio < 1.0)) continue;
+      precision = std::min(safety * std::abs(*moved) / (1.0 - ratio), most * std::max(1.0, std::abs(p(0))));
+      return true;
+    }
+    return false;
   });
   return precision;
 }

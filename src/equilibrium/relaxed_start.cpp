@@ -130,7 +130,7 @@ std::optional<Started> polished(const scene::Scene& scene, const discrete_rod::T
   for (std::size_t i = 0; i < next.topology.stretches.size(); ++i) {
     meshes.push_back(first_mesh(next.topology.stretches[i], in_unit, (next.s[i + 1] - next.s[i]) / unit));
     // Between touches of a line arcs are many, and short.
-    if (strands.along(static_cast<int>(i))) meshes.back().nodes = chain::uniform_mesh(1);
+    if (strands.along(static_cast<int>(i))) meshes.back() = {chain::uniform_mesh(1), stages_along_strand};
   }
   choose_tails(meshes, next.topology, rod_of(scene, true), loads, next.s);
   auto problem = std::make_shared<RodProblem>(scene, true, next.topology, meshes, keys);

@@ -167,8 +167,8 @@ std::vector<chain::ArcMesh> RodProblem::new_meshes(const Vector& x, const Loads&
     double sum = 0.0;
     for (double w : weights[i]) sum += w;
     const double length = chain_->place(x, at, static_cast<int>(i)).length / rod_.unit_length;
-    const int count =
-        std::clamp(static_cast<int>(std::ceil(goal * sum / total)), length < short_arc ? 1 : 2, 400);
+    const int count = std::clamp(static_cast<int>(std::ceil(goal * sum / total)), length < short_arc ? 1 : 2,
+                                 length < shrunk_to ? 1 : 400);
     const std::vector<double>& old = meshes_[i].nodes;
     std::vector<double> mesh{0.0};
     std::size_t e = 0;
@@ -250,8 +250,10 @@ std::optional<Vector> RodProblem::moved_to(std::vector<chain::ArcMesh> meshes, c
   Vector fresh = chain::transfer_state(*old, *chain_, x, loads(p));
   if (polish(fresh, p) >= 0) {
     const double too_large = excess(fresh, p);
-    // What rounding is forgiven no coarser mesh may add.
-    if (within && too_large <= 1.0 && nodal_error_ <= std::max(nodal_goal(), old_nodal)) return fresh;
+    // What rounding is forgiven no coarser mesh may add, but by chance.
+    constexpr double by_chance = 3.0;
+    if (within && too_large <= 1.0 && nodal_error_ <= std::max(nodal_goal(), by_chance * old_nodal))
+      return fresh;
     constexpr double by_mesh = 0.05;
     const double old_error = std::get<0>(old_errors);
     const bool closer = old_error > scene_.model.tolerance && last_error_ < towards * old_error;
@@ -305,7 +307,7 @@ std::optional<Vector> RodProblem::remeshed_where_needed(const Vector& x, const V
   const bool coarsen = too_large < superfluous && last_error_ > 1.5 * noise;
   if (too_large <= 1.0 &&
       (outgrown(*chain_, meshes_, x, at, rod_.bending_stiffness) || shrunk(*chain_, x, at, rod_.unit_length)))
-    return moved_to(new_meshes(x, loads(p), 1.0), x, p, true);
+    return moved_to(new_meshes(x, at, 1.0), x, p, true);
   if (too_large <= 1.0 && !coarsen) return std::nullopt;
   const double order = order_of(meshes_);
   const auto meshes =

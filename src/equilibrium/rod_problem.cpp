@@ -341,6 +341,9 @@ double RodProblem::target(const chain::Chain& chain, const Vector& x, const Load
 std::shared_ptr<continuation::Problem> RodProblem::clone() const {
   auto copy = std::make_shared<RodProblem>(scene_, spatial_, topology_, meshes_, keys_);
   copy->remember(memory());
+  copy->estimated_x_ = estimated_x_, copy->estimated_p_ = estimated_p_;
+  copy->nodal_error_ = nodal_error_;
+  copy->counts_ = counts_;
   return copy;
 }
 

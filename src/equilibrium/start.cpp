@@ -116,10 +116,16 @@ Started dragged_first(const scene::Scene& scene, const std::vector<std::string>&
 
 }  // namespace
 
-std::optional<Started> knot_start(const scene::Scene& scene, bool half, const std::vector<std::string>& keys,
-                                  std::string& failure) {
+namespace {
+
+std::string pull_on_knot(const scene::Scene& scene) {
+  return scene.has_cylinder ? "load.tension" : "load.thrust";
+}
+
+/// A knot relaxed at the first of its pulls at which it is found, on a half chain.
+std::optional<Started> relaxed_knot(const scene::Scene& scene, std::string& failure) {
   const knot::Curve curve = knot::start_curve(scene);
-  const std::string key = scene.has_cylinder ? "load.tension" : "load.thrust";
+  const std::string key = pull_on_knot(scene);
   for (const double pull : relaxing_pulls(scene)) {
     scene::Scene at = scene;
     scene::set_parameter(at, key, pull);
@@ -128,9 +134,30 @@ std::optional<Started> knot_start(const scene::Scene& scene, bool half, const st
                                       ? relaxed_start(at, curve, {key}, failure)
                                       : relaxed_start(inextensible(at), curve, by_compliance, failure);
     if (from && compliance != 0.0) from = reach(*from, at, compliance, true, {key}, failure);
-    if (from) return reach(*from, scene, scene::get_parameter(scene, key), half, keys, failure);
+    if (from) return from;
   }
   return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Started> knot_start(const scene::Scene& scene, bool half, const std::vector<std::string>& keys,
+                                  std::string& failure) {
+  const auto from = relaxed_knot(scene, failure);
+  if (!from) return std::nullopt;
+  return reach(*from, scene, scene::get_parameter(scene, pull_on_knot(scene)), half, keys, failure);
+}
+
+std::optional<Started> knot_between(const scene::Scene& asked, bool half, const std::string& key,
+                                    double lower, double upper) {
+  const scene::Scene scene = scene::natural(asked);
+  if (!scene.knot.tied() || scene.plate || key != pull_on_knot(scene)) return std::nullopt;
+  const auto inside = [&](double pull) { return lower < pull && pull < upper; };
+  if (!inside(relaxing_pulls(scene).front())) return std::nullopt;
+  std::string failure;
+  const auto found = relaxed_knot(scene, failure);
+  if (!found || !inside(found->p(0))) return std::nullopt;
+  return on_chain(found, half);
 }
 
 std::optional<Started> followed_coil(const scene::Scene& scene, bool spatial, bool half,

@@ -73,6 +73,39 @@ BOOST_AUTO_TEST_CASE(clove_hitch_loosens_through_every_change_of_contact) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_branch_begins_where_it_is_asked_to) {
+  // Relaxed at T = 2, inside the branch, the hitch is followed to where the branch begins; what it met on the way is reported
+  // from there, as what follows is.
+  const TemporaryFolder folder;
+  std::vector<std::string> command =
+      tied("continue", 0.285714, {"continuation.from=3", "continuation.to=1.6"});
+  command.insert(command.end(), {"--out", "run", "--quiet", "--no-eigenvalues"});
+  const Outcome outcome = run_program(command, folder.path());
+  BOOST_TEST(outcome.status == 0, outcome.err);
+  const Outcome certificate = run_program({"verify", "run"}, folder.path());
+  BOOST_TEST(certificate.status == 0, certificate.out);
+  const Table table = read_csv(folder.path() / "run" / "branches.csv");
+  BOOST_TEST(table.rows.front().at("type") == "start");
+  BOOST_TEST(table.rows.front().at("T") == "3");
+  BOOST_TEST(table.rows.back().at("T") == "1.6");
+  int events = 0;
+  double last = 3.1;
+  for (const auto& row : table.rows) {
+    const double tension = std::stod(row.at("T"));
+    BOOST_TEST(tension < last);
+    last = tension;
+    if (row.at("type") == "contact") BOOST_TEST(row.at("label") == "E" + std::to_string(++events));
+  }
+  BOOST_TEST(events >= 4);  // above T = 2 three
+  // Any point of either part is one to go on from.
+  for (const std::string label : {"E1", "1-5", "E4"}) {
+    const Outcome on = run_program({"continue", "run", label, "--set", "continuation.to=1.7", "--out",
+                                    "on-" + label, "--quiet", "--no-eigenvalues", "--force"},
+                                   folder.path());
+    BOOST_TEST(on.status == 0, on.err);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(another_thickness) {
   // Followed in the radius it keeps two of its own radii off itself at every point, and arrives at the state found from nothing.
   const TemporaryFolder folder;

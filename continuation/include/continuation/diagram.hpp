@@ -17,6 +17,9 @@ struct DiagramOptions {
   /// Of points that break the problem's symmetry, and on branches that have broken it, the arms are walked where stability
   /// is lost or won, so that all that a stable branch leads to is seen; the whole tree belongs to the unrestricted problem.
   bool breaking_arms_of_stable = true;
+  /// The start lies inside the first branch: it is walked back to the bound behind it, and reported from there on. Where it
+  /// does not lead there it begins where it ends, and that is lost.
+  bool from_behind = false;
 };
 
 struct Branch {
@@ -68,6 +71,7 @@ class DiagramObserver {
  public:
   virtual ~DiagramObserver() = default;
   virtual void on_branch_start(const Branch&) {}
+  virtual void on_way_back(const Point&) {}  ///< from inside a branch to its beginning; not yet reported
   virtual void on_point(const Branch&, const Point&) {}          ///< every point, special ones included
   virtual void on_special_point(const Branch&, const Point&) {}  ///< new special points, after on_point
   virtual void on_branch_end(const Branch&) {}

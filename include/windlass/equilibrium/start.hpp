@@ -26,6 +26,12 @@ struct Started {
 /// @throws NoEquilibrium
 Started cold_start(const scene::Scene& scene, bool spatial, bool half, const std::vector<std::string>& keys);
 
+/// A state of the branch in the pull on which `cold_start` finds a knot, where it is found from nothing: from there it would be
+/// followed to the scene's pull. nullopt: none, or other ways lead to this scene.
+/// @param lower, upper  pulls between which it is wanted [natural units]
+std::optional<Started> knot_between(const scene::Scene& scene, bool half, const std::string& key,
+                                    double lower, double upper);
+
 /// An equilibrium on the contacts that complementarity on a fixed mesh finds (discovery.hpp). nullopt where it finds none,
 /// or Newton does not converge on them.
 std::optional<Started> discovered_start(const scene::Scene& scene, bool spatial, bool half,
