@@ -128,4 +128,14 @@ const CollocationTable& CollocationTable::get(int stages) {
   return tables[stages - min_stages];
 }
 
+Eigen::MatrixXd gauss_stages(const CollocationTable& table) {
+  const int m = table.stages;
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(m, m);
+  for (int g = 0; g < m; ++g)
+    for (int j = 0; j < m; ++j)  // exact: a polynomial of degree M − 1 on [0, gauss(g)]
+      a.row(g) += table.gauss(g) * table.weight(j) *
+                  lagrange_basis(table.gauss, table.gauss(g) * table.gauss(j)).transpose();
+  return a;
+}
+
 }  // namespace windlass::bvp

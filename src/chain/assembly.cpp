@@ -253,6 +253,11 @@ void Chain::add_locations(const VectorXd& x, const Loads& loads, Block& dense) c
     for (std::size_t k = 0; k < kept_[j].size(); ++k)
       dense(row, numbering_.coordinate[j] + k) += by_w(kept_[j][k]);
     if (loads.compliance != 0.0) add_stretching(x, loads, j, dense);
+    if (const auto lift = joints_[j]->lift(coordinates(x, j), loaded(x, loads, j))) {
+      for (std::size_t k = 0; k < kept_[j].size(); ++k)
+        dense(row, numbering_.coordinate[j] + static_cast<Eigen::Index>(k)) += lift->by_w(kept_[j][k]);
+      if (travel() == Travel::free) dense(row, numbering_.slide) += lift->by_travel;
+    }
   }
   if (slide_at_ < 0) return;
   if (gauges_.travel == Travel::blocked) add_pulled(x, loads, dense);

@@ -282,6 +282,7 @@ Chain::Placed Chain::place(const VectorXd& x, const Loads& loads, int link) cons
   p.interior = interior(x, link);
   p.length = length(x, loads, link);
   p.friction = loads.friction;
+  p.arm = loads.arm;
   p.compliance = loads.compliance;
   if (loads.weighs()) p.weight = weight_on(loads, link);
   if (travel() == Travel::free) p.travel = x(slide_at_ + 1);
@@ -354,7 +355,7 @@ double Chain::nodal_norm(const VectorXd& dx) const {
   double largest = dx.head(geometric_size_).lpNorm<Eigen::Infinity>();
   for (int i = 0; i < link_count(); ++i) {
     const Arc& arc = *links_[i].arc;
-    const int d = arc.tangent();
+    const int d = arc.node_tangent();
     for (int e = 1; e < arc.elements(); ++e)
       largest = std::max(largest,
                          dx.segment(interior_row_[i] + (e * arc.stages() - 1) * d, d).cwiseAbs().maxCoeff());

@@ -38,7 +38,7 @@ void adopt_interior(const RodKind& rod, const obstacle::Surface* surface, const 
     const int e = k / arc.stages();
     const double sigma = mesh[e] + (mesh[e + 1] - mesh[e]) * points(k % arc.stages());
     const Profile::At at = profile.at(begin + length * sigma);
-    double* q = out + (k - 1) * arc.ambient();
+    double* q = out + (k - 1) * arc.node_ambient();
     if (surface) {
       const Eigen::Vector2d c = contact::spatial::surface_coordinates(
           at.q, surface->base_frame(surface->coordinates(at.r, at.angle)));
@@ -118,6 +118,12 @@ double jump_of(const Chain& chain, const VectorXd& x, int coupling, const Profil
   return pushes.cols() == 1 ? jump.dot(pushes.col(0)) : pushes.colPivHouseholderQr().solve(jump)(own);
 }
 
+/// What of the internal force along a normal is lost at a place.
+double jump_at(const Profile& profile, const Vector3d& normal, double s) {
+  constexpr double beside = 1e-6;
+  return normal.dot(profile.at(s - beside).n - profile.at(s + beside).n);
+}
+
 }  // namespace
 
 VectorXd guess_state(const Chain& chain, const Topology& topology, const RodKind& rod, const Profile& profile,
@@ -148,6 +154,10 @@ VectorXd guess_state(const Chain& chain, const Topology& topology, const RodKind
     else if (arc.interior_nodes() > 0)
       adopt_interior(rod, nullptr, arc, profile, begin, length, no_turn, chain.interior(x, i));
   }
+  for (int j = 0; j < chain.joint_count(); ++j)
+    if (const int force = chain.joint(j).force_coordinate(); force >= 0)
+      chain.coordinates(x, j)[force] =
+          jump_at(profile, chain.joint(j).chart(chain.coordinates(x, j)).normal, s[j]);
   for (std::size_t k = 0; k < chain.couplings().size(); ++k)
     chain.strand_force(x, static_cast<int>(k)) = jump_of(chain, x, static_cast<int>(k), profile, s);
   return x;

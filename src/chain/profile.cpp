@@ -67,15 +67,17 @@ void sample_surface(const bvp::ArcSamples& samples, const rod::Material& materia
     const rod::LineSection at =
         rod::line_section(surface, material, q, samples.momentum.col(k).head<2>(), here_n);
     const obstacle::Chart here = surface.chart(u);
+    Vector3d force = at.n;
+    if (samples.pressure.size() > 0) force(0) -= samples.lever(k) * samples.pressure(k);
     const double c = std::cos(q(0)), s = std::sin(q(0));
     Eigen::Matrix3d darboux;
     darboux << here.normal, here.tangents * Eigen::Vector2d(s, -c), here.tangents * Eigen::Vector2d(c, s);
     piece.angle(k) = surface.turn(u);
     piece.r.col(k) = here.r;
     piece.q.col(k) = contact::spatial::surface_frame(surface.base_frame(u), q(0), q(1));
-    piece.n.col(k) = darboux * at.n;
+    piece.n.col(k) = darboux * force;
     piece.m.col(k) = darboux * at.m;
-    piece.p(k) = at.pressure;
+    piece.p(k) = samples.pressure.size() > 0 ? samples.pressure(k) : at.pressure;
   }
 }
 
@@ -83,6 +85,7 @@ void sample_surface(const bvp::ArcSamples& samples, const rod::Material& materia
 double surface_force(const Piece& piece, const bvp::ArcSamples& samples, const rod::Material& material,
                      const obstacle::Surface& surface, const Eigen::Vector2d& start, const Eigen::Vector2d& n,
                      double length) {
+  if (samples.pressure.size() > 0) return samples.pressed;
   const Eigen::Index last = piece.s.size() - 1;
   const auto normal = [&](Eigen::Index k) {
     return surface.chart(start + samples.displacement.col(k).head<2>()).normal;

@@ -46,6 +46,7 @@ Contact obstacle_contact(const Chain& chain, const Topology& topology, const rod
   c.normal = c.surface_normal = here.normal;
   const Piece& after = pieces[j];
   c.force = jump(topology, pieces, j).dot(c.normal);
+  c.layer = chain.edge_layer(x, loads, j);
   const Vector3d t = rod::directors(after.q.col(0)).col(2);
   const Eigen::Vector2d along = here.tangents.transpose() * t;
   c.gap_curvature = curvature(material, after, 0).dot(c.normal) + along.dot(here.bend * along);

@@ -30,6 +30,8 @@ VectorXd Chain::residual(const VectorXd& x, const Loads& loads) const {
     if (numbering_.location[j] < 0 || coupling_of_[j] >= 0) continue;
     const Joint::Location c = location(x, j);
     f(numbering_.location[j]) = c.value;
+    if (const auto lift = joints_[j]->lift(coordinates(x, j), loaded(x, loads, j)))
+      f(numbering_.location[j]) += lift->value;
     if (const auto stretched = stretching(x, loads, j, c.side)) f(numbering_.location[j]) += stretched->value;
   }
   add_strand_forces(x, loads, f);

@@ -7,11 +7,13 @@
 #include <stdexcept>
 
 #include "windlass/bvp/collocation_arc.hpp"
+#include "windlass/contact/coupled_edge.hpp"
 #include "windlass/contact/planar_joints.hpp"
 #include "windlass/contact/plate_joints.hpp"
 #include "windlass/contact/rim_joint.hpp"
 #include "windlass/contact/spatial_joints.hpp"
 #include "windlass/rod/closed_form_arcs.hpp"
+#include "windlass/rod/coupled_line_arc.hpp"
 #include "windlass/rod/dragged_line_arc.hpp"
 #include "windlass/rod/extensible_density.hpp"
 #include "windlass/rod/kirchhoff_density.hpp"
@@ -135,6 +137,9 @@ std::unique_ptr<Joint> contact_joint(const RodKind& rod, const Topology& t, int 
   }
   if (seat.strand != 0) throw std::invalid_argument("no strand presses on the edge of a line contact");
   const Side line = left == Stretch::line ? Side::left : Side::right;
+  if (rod.coupled && rod.obstacles[obstacle].slips())
+    return std::make_unique<spatial::CoupledEdge>(line, rod.bending_stiffness,
+                                                  rod.obstacles.pointer(obstacle));
   if (rod.spatial)
     return std::make_unique<spatial::Edge>(line, rod.bending_stiffness, rod.obstacles.pointer(obstacle),
                                            rod.bending_stiffness * rod.stiffness.cwiseInverse(), rod.natural);
@@ -161,6 +166,9 @@ std::unique_ptr<Arc> make_arc(const RodKind& rod, Stretch stretch, int obstacle,
       return std::make_unique<rod::ExtensiblePlanarLineArc>(rod.bending_stiffness, rod.natural_curvature());
     if (!rod.spatial)
       return std::make_unique<rod::PlanarLineArc>(rod.bending_stiffness, rod.natural_curvature());
+    if (rod.coupled && rod.obstacles[obstacle].slips())
+      return std::make_unique<rod::CoupledLineArc>(
+          rod::SurfaceDensity{rod.bending_stiffness, rod.stiffness(2)}, mesh.nodes, mesh.stages);
     if (rod.travel != Travel::none && rod.obstacles[obstacle].slips())
       return std::make_unique<rod::DraggedLineArc>(
           rod::SurfaceDensity{rod.bending_stiffness, rod.stiffness(2)}, mesh.nodes, mesh.stages);

@@ -427,8 +427,8 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
   const std::vector<chain::Coupling> couplings = topology.couplings();
   for (const Contact& c : profile.contacts) {
     if (c.coupling >= 0 && c.joint != couplings[c.coupling].first) continue;  // one event for the two joints
-    events.push_back(
-        {Kind::force, c.joint, c.force + (c.coupling < 0 ? 0.0 : carried_pull(profile, strands, c)), c.s});
+    events.push_back({Kind::force, c.joint,
+                      c.force + c.layer + (c.coupling < 0 ? 0.0 : carried_pull(profile, strands, c)), c.s});
     events.back().redrawn = strands.inside_line(c.joint);
     const auto on_rim = c.obstacle < 0 ? nullptr : obstacle::as_rim(profile.obstacles.pointer(c.obstacle));
     if (on_rim || (c.obstacle >= 0 && std::isfinite(profile.obstacles[c.obstacle].outer_radius())))

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "attempt.hpp"
+#include "layer_mesh.hpp"
+#include "windlass/chain/guess.hpp"
 #include "windlass/equilibrium/opening.hpp"
 #include "windlass/equilibrium/start.hpp"
 
@@ -124,6 +126,11 @@ Entry draft(const RodProblem& from, const Successor& next, const chain::Profile&
   const scene::Scene scene = from.scene_at(p);
   choose_tails(meshes, next.topology, from.rod(), loads_of(scene), next.s);
   auto problem = std::make_shared<RodProblem>(scene, from.spatial(), next.topology, meshes, from.keys());
+  if (problem->coupled()) {
+    const Vector guess = chain::guess_state(problem->chain(), next.topology, problem->rod(), shape, next.s);
+    meshes = with_layers(problem->chain(), meshes, guess, problem->loads(p));
+    problem = std::make_shared<RodProblem>(scene, from.spatial(), next.topology, meshes, from.keys());
+  }
   // A rod that finds its own place along itself keeps doing so: held where the guess lies, it would be another.
   RodProblem::Memory kept;
   if (const RodProblem::Memory before_it = from.memory(); before_it.slides) {

@@ -9,14 +9,18 @@ namespace windlass::equilibrium {
 using chain::Stretch;
 
 bool carries_couple(const Topology& topology) {
-  for (int i = 0; i < static_cast<int>(topology.stretches.size()); ++i)
-    if (topology.stretches[i] == Stretch::line || topology.touches_flat(i)) return false;
+  for (int i = 0; i < static_cast<int>(topology.stretches.size()); ++i) {
+    if (topology.lies_flat(i) || topology.touches_flat(i) || topology.seat(i).stop >= 0) return false;
+    if (topology.stretches[i] == Stretch::line && (topology.obstacle(i) != 0 || (topology.half && i == 0)))
+      return false;
+  }
   return topology.couplings().empty();
 }
 
 std::string couple_not_carried() {
-  return "cylinder.friction_couple: is built for isolated touches, not for rods that lie along a line on the "
-         "cylinder or on the plate; false leaves the moment of the friction out";
+  return "cylinder.friction_couple: is built for touches and lines of the cylinder, not for rods that lie on "
+         "cylinder and "
+         "plate at once; false leaves the moment of the friction out";
 }
 
 std::string rim_not_thickened() {

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "layer_mesh.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/equilibrium/rod_problem.hpp"
 
@@ -79,6 +80,7 @@ bool outgrown(const chain::Chain& chain, const std::vector<chain::ArcMesh>& mesh
     if (chain.link(i).arc->elements() == 0) continue;
     const double growth = growth_over(chain.place(x, at, i), bending_stiffness);
     const std::vector<double>& nodes = meshes[i].nodes;
+    if (layers_outgrown(nodes, layers_of(chain, x, at, i), meshes[i].stages)) return true;
     for (std::size_t k = 1; k < nodes.size(); ++k) {
       const double size = growth * (nodes[k] - nodes[k - 1]);
       if (size > 1.2 * longest && size < whole) return true;
@@ -159,7 +161,8 @@ std::vector<chain::ArcMesh> RodProblem::new_meshes(const Vector& x, const Loads&
       weights[i].push_back(std::pow(resolution[e], 1.0 / arc.stages()) + smooth * std::min(1.0, length));
       total += weights[i].back();
     }
-    elements += arc.elements();
+    elements +=
+        arc.elements() - elements_of_layers(meshes_[i].nodes, layers_of(*chain_, x, at, i), arc.stages());
   }
   const double goal = std::clamp(growth, 0.4, 2.5) * elements;
   for (std::size_t i = 0; i < meshes_.size(); ++i) {
@@ -183,7 +186,7 @@ std::vector<chain::ArcMesh> RodProblem::new_meshes(const Vector& x, const Loads&
     const double grown = growth_over(placed, rod_.bending_stiffness);
     mesh = chain::split_mesh(mesh, grown, longest, whole);
     if (topology_.stretches[i] == chain::Stretch::tail) mesh = fine_while_bent(mesh, grown, i == 0);
-    out[i].nodes = mesh;
+    out[i].nodes = fine_in_layers(mesh, layers_of(*chain_, x, at, static_cast<int>(i)), meshes_[i].stages);
   }
   return out;
 }
@@ -217,6 +220,17 @@ double RodProblem::nodal_goal() const {
 double RodProblem::bearable() const { return 2.0 * nodal_goal(); }
 
 Vector RodProblem::refine(Vector x, const Vector& p, int rounds) {
+  bool outgrown_layers = false;
+  for (int i = 0; i < chain_->link_count(); ++i)
+    outgrown_layers |=
+        layers_outgrown(meshes_[i].nodes, layers_of(*chain_, x, loads(p), i), meshes_[i].stages);
+  if (outgrown_layers) {  // first: they would have all of the mesh finer
+    meshes_ = with_layers(*chain_, meshes_, x, loads(p));
+    const std::unique_ptr<chain::Chain> old = std::move(chain_);
+    rebuild();
+    x = chain::transfer_state(*old, *chain_, x, loads(p));
+    if (polish(x, p) < 0) throw NoEquilibrium("Newton failed after the mesh was adapted");
+  }
   bool refined = false;  // with less error asked for, not only distributed evenly
   for (int k = 0; k < rounds; ++k) {
     settle(x, p);

@@ -120,13 +120,17 @@ RodProblem::RodProblem(scene::Scene scene, bool spatial, Topology topology,
   rebuild();
 }
 
+bool RodProblem::coupled() const {
+  const bool thickens = std::find(keys_.begin(), keys_.end(), "rod.radius") != keys_.end();
+  return base_.arm != 0.0 || (thickens && scene_.friction_has_couple());
+}
+
 const char* RodProblem::missing_on(const Topology& topology) const {
   const auto asked = [&](double Loads::*field) {
     return base_.*field != 0.0 || std::find(fields_.begin(), fields_.end(), field) != fields_.end();
   };
   const bool thickens = std::find(keys_.begin(), keys_.end(), "rod.radius") != keys_.end();
-  const bool couple = asked(&Loads::arm) || (thickens && scene_.friction_has_couple());
-  if (couple && !(spatial_ && carries_couple(topology))) return "cylinder.friction_couple";
+  if (coupled() && !(spatial_ && carries_couple(topology))) return "cylinder.friction_couple";
   for (int j = 0; j < static_cast<int>(topology.on.size()); ++j)
     if (obstacle::plate_at(scene_, topology.seat(j).flat) == 2 ||
         obstacle::plate_at(scene_, topology.seat(j).stop) == 2)
@@ -156,6 +160,7 @@ void RodProblem::rebuild() {
             ? "plate.2.height: the second plate and the cylinder cannot hold the rod at one place"
         : key == std::string_view("plate.outer_radius") ? rim_not_thickened()
                                                         : couple_not_carried());
+  rod_.coupled = coupled();
   chain_ = chain::build_chain(rod_, topology_, meshes_);
   chain_->let_slide(slides_);
   finer_.reset();

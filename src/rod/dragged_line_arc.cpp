@@ -42,27 +42,12 @@ LinePressure line_pressure(const SurfaceDensity& rod, const Vector2d& q, const V
   return out;
 }
 
-namespace {
-
-/// ∫₀^gauss(g) φ_k over [0, 1], φ the Lagrange basis of the Gauss points: the stages of Gauss' method.
-MatrixXd gauss_stages(const bvp::CollocationTable& table) {
-  const int m = table.stages;
-  MatrixXd a = MatrixXd::Zero(m, m);
-  for (int g = 0; g < m; ++g)
-    for (int j = 0; j < m; ++j)  // exact: a polynomial of degree M − 1 on [0, gauss(g)]
-      a.row(g) += table.gauss(g) * table.weight(j) *
-                  bvp::lagrange_basis(table.gauss, table.gauss(g) * table.gauss(j)).transpose();
-  return a;
-}
-
-}  // namespace
-
 DraggedLineArc::DraggedLineArc(const SurfaceDensity& rod, const std::vector<double>& mesh, int stages)
     : rod_(rod),
       still_(bvp::make_collocation_arc(rod, mesh, stages)),
       mesh_(mesh),
       table_(bvp::CollocationTable::get(stages)),
-      stage_(gauss_stages(table_)) {
+      stage_(bvp::gauss_stages(table_)) {
   const int all = interior_tangent() + ends();
   matrix_.setZero(all, all);
   carry_.setZero(2, all);
@@ -236,46 +221,6 @@ void DraggedLineArc::linearise(const ArcPoint& at, int element, const Element& s
     carry_.col(length) += part * w * state.rate.col(k);
     carry_.col(travel) -= h * w * at.friction * state.pressure[k].p * state.slips[k].by_travel;
   }
-}
-
-void DraggedLineArc::factor(const ArcPoint& at, bvp::EndsMatrix& condensed) {
-  linearise(at);
-  const int inner = interior_tangent(), outer = ends();
-  weighted_ = matrix_.bottomLeftCorner(outer, inner);
-  inner_.compute(matrix_.topLeftCorner(inner, inner));
-  solved_ = inner_.solve(matrix_.topRightCorner(inner, outer));
-  solved_left_ = inner_.transpose().solve(weighted_.transpose());
-  condensed = matrix_.bottomRightCorner(outer, outer) - weighted_ * solved_;
-  const auto pivots = inner_.matrixLU().diagonal();
-  const bool odd = ((pivots.array() < 0.0).count() % 2 == 1) != (inner_.permutationP().determinant() < 0);
-  negative_ = odd;  // its parity is all that a matrix without symmetry has
-}
-
-void DraggedLineArc::reduce(double* rhs, bvp::EndsVector& ends) const {
-  Eigen::Map<Eigen::VectorXd> interior(rhs, interior_tangent());
-  ends -= solved_left_.transpose() * interior;
-  interior = inner_.solve(interior).eval();
-}
-
-void DraggedLineArc::reduce_transposed(double* rhs, bvp::EndsVector& ends) const {
-  Eigen::Map<Eigen::VectorXd> interior(rhs, interior_tangent());
-  ends -= solved_.transpose() * interior;
-  interior = inner_.transpose().solve(interior).eval();
-}
-
-void DraggedLineArc::expand(double* x, const bvp::EndsVector& ends) const {
-  Eigen::Map<Eigen::VectorXd>(x, interior_tangent()) -= solved_ * ends;
-}
-
-void DraggedLineArc::expand_transposed(double* x, const bvp::EndsVector& ends) const {
-  Eigen::Map<Eigen::VectorXd>(x, interior_tangent()) -= solved_left_ * ends;
-}
-
-void DraggedLineArc::hessian(const ArcPoint& at, std::vector<Eigen::Triplet<double>>& entries) const {
-  linearise(at);
-  for (Eigen::Index c = 0; c < matrix_.cols(); ++c)
-    for (Eigen::Index r = 0; r < matrix_.rows(); ++r)
-      if (matrix_(r, c) != 0.0) entries.emplace_back(static_cast<int>(r), static_cast<int>(c), matrix_(r, c));
 }
 
 Eigen::VectorXd DraggedLineArc::metric(const ArcPoint& at) const {

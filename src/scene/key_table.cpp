@@ -281,7 +281,7 @@ std::vector<Key> load_keys() {
       "cylinder.friction_couple",
       "while sliding, of a rod with a radius: has the friction, which acts at the rod's surface, a moment "
       "about its "
-      "centre line? needs an end that does not spin; built for isolated touches; default: true",
+      "centre line? needs an end that does not spin; not built for flat coils on the plate; default: true",
       [](const Scene& scene) -> std::optional<double> {
         return scene.motion.friction_couple ? std::nullopt : std::optional(0.0);
       },

@@ -174,7 +174,10 @@ void check_sample(const ArcRecord& arc, Eigen::Index i, const Surroundings& arou
   found.pressures.emplace_back(arc.s[i], pressure);
   found.off_surface.add(std::abs(Gap(stored, around.below).value));
   found.off_surface.add(std::abs(Gap(stored, around.below).rate));
-  found.pressure.add(std::abs(pressure - around.pressure(stored)) / scales.force);
+  const double off = around.below.has_couple() ? taken_by_couple(stored, around.law.K[0]) -
+                                                     pressure * around.below.lever(stored.r, tangent(stored))
+                                               : pressure - around.pressure(stored);
+  found.pressure.add(std::abs(off) / scales.force);
 }
 
 /// What is true along a trajectory between two samples: distance from the obstacles, sign of the pressure.
@@ -183,7 +186,14 @@ void look_along(const std::vector<Section>& sections, double begin, double h, Ar
   for (std::size_t k = 1; k < sections.size(); ++k) {
     if (kind == ArcKind::line) {
       found.off_surface.add(std::abs(Gap(sections[k], around.below).value));
-      found.pressures.emplace_back(begin + static_cast<double>(k) * h, around.pressure(sections[k]));
+      const double w =
+          around.below.has_couple() ? around.below.lever(sections[k].r, tangent(sections[k])) : 0.0;
+      const bool between = k + 1 < sections.size();  // at the samples w may be too small
+      if (!around.below.has_couple())
+        found.pressures.emplace_back(begin + static_cast<double>(k) * h, around.pressure(sections[k]));
+      else if (between && w != 0.0)
+        found.pressures.emplace_back(begin + static_cast<double>(k) * h,
+                                     taken_by_couple(sections[k], around.law.K[0]) / w);
     }
     for (const Shape& shape : around.shapes) {
       if (kind != ArcKind::free && &shape == &around.below) continue;
@@ -203,6 +213,40 @@ bool close(const Section& a, const Section& b, const Scales& scales) {
          0.1 * tight;
 }
 
+/// The pressure of a line whose friction has a moment, as stored, about the piece from one sample to the next.
+void prescribe(RodFlow& flow, const ArcRecord& arc, Eigen::Index i) {
+  constexpr Eigen::Index most = 6;  // samples; more swing between those of unlike elements
+  const Eigen::Index count = std::min<Eigen::Index>(most, arc.s.size()),
+                     first = std::clamp<Eigen::Index>(i - count / 2 + 1, 0, arc.s.size() - count);
+  Eigen::VectorXd places(count), pressures(count);
+  for (Eigen::Index k = 0; k < count; ++k)
+    places(k) = arc.s[first + k] - arc.s[i], pressures(k) = arc.p[first + k];
+  flow.prescribe(places, pressures);
+}
+
+/// From one sample to the next of a line whose friction has a moment: the way that its pressure flows.
+double integrate_coupled(RodFlow& flow, const ArcRecord& arc, Eigen::Index i, const Surroundings& around,
+                         const Scales& scales, Collected& found) {
+  const auto lever = [&](const Section& x) { return around.below.lever(x.r, tangent(x)); };
+  const Section left = sample(arc, i), right = sample(arc, i + 1);
+  const bool backward = lever(left) > 0.0 && lever(right) > 0.0,
+             forward = lever(left) < 0.0 && lever(right) < 0.0;
+  if (backward || forward)
+    flow.prescribe({}, {});
+  else
+    prescribe(flow, arc, i);
+  const double length = arc.s[i + 1] - arc.s[i];
+  const Section &start = backward ? right : left, &goal = backward ? left : right;
+  flow.restart(start, backward);
+  const int looks = looks_along(scales.moment / std::sqrt(around.law.K[0]) * length);
+  std::vector<Section> sections = {start};
+  for (int k = 1; k <= looks; ++k) sections.push_back(flow.advance(k == looks ? length : k * length / looks));
+  compare(sections.back(), goal, scales, found);
+  if (backward) std::reverse(sections.begin(), sections.end());
+  look_along(sections, arc.s[i], length / looks, arc.kind, around, found);
+  return std::abs(flow.contact_force());
+}
+
 /// Integrates from one sample to the next. @return the contact force on the way
 double integrate_piece(RodFlow& flow, const ArcRecord& arc, Eigen::Index i, const Surroundings& around,
                        const Scales& scales, Collected& found) {
@@ -213,6 +257,8 @@ double integrate_piece(RodFlow& flow, const ArcRecord& arc, Eigen::Index i, cons
     return arc.kind == ArcKind::line ? 0.5 * (arc.p[i] + arc.p[i + 1]) * length : 0.0;
   }
   std::vector<Section> sections = {start};
+  if (arc.kind == ArcKind::line && around.below.has_couple())
+    return integrate_coupled(flow, arc, i, around, scales, found);
   // plain integration, the cheap and direct way; after it has lost e^20 there is no point in trying
   if (growth * length < 20.0) {
     flow.restart(start);
@@ -267,10 +313,11 @@ double check_arcs(const Solution& solution, const scene::Scene& scene, const Sca
     for (Eigen::Index i = 0; i < arc.s.size(); ++i) norm.add(std::abs(arc.q.col(i).norm() - 1.0));
     const Shape* below = arc.kind == ArcKind::line ? shape_of(shapes, arc.obstacle) : nullptr;
     const bool flat = below && on_plate(arc, scene);
-    // A line on nothing; or with what this integration has not: a moment of the friction along it, or a stretch by it.
+    // A line on nothing; or with what this integration has not: a stretch by the friction along it.
     const bool stretched =
         below && law.stretches() && below->drags() && !(flat && std::abs(solution.travel_rate) < tight);
-    if (arc.kind == ArcKind::line && (!below || below->has_couple() || stretched)) found.off_surface.add(NAN);
+    if (arc.kind == ArcKind::line && (!below || (flat && below->has_couple()) || stretched))
+      found.off_surface.add(NAN);
     const Shape pressed = !below ? none : flat ? below->beside_plate() : *below;
     integrate(arc, {law, shapes, pressed}, scales, found);
   }

@@ -99,6 +99,8 @@ void check_invariants(const Solution& solution, const scene::Scene& scene, const
     strand_push += push_of_plate(solution.joints[k], solution, shapes);
     // The moment of the friction at a touch of the cylinder is judged there (joint_moment).
     if (k > 0 && scene.friction_arm() > 0.0 && solution.joints[k].obstacle == 0) twist.restart();
+    const bool dragged_line =
+        arc.kind == equilibrium::ArcKind::line && arc.obstacle == 0 && scene.friction_arm() > 0.0;
     if (arc.s_end - arc.s_begin < tight) continue;  // vanishes at an event, and has no section of its own
     for (Eigen::Index i = 0; i < arc.s.size(); ++i) {
       const Section x = sample(arc, i);
@@ -108,6 +110,7 @@ void check_invariants(const Solution& solution, const scene::Scene& scene, const
       const Vector3d fallen = (arc.s[i] - solution.arcs.front().s[0]) * law.weight,
                      here = (arc.s[i] - arc.s[0]) * law.weight;
       if (along) axial_force.add((x.n + strand_push + fallen).dot(*along) / scales.force);
+      if (dragged_line) twist.restart();
       twist.add(x.m.dot(tangent(x)) / scales.moment);
       if (arc.kind == equilibrium::ArcKind::free)
         free_force.add((x.n + here - arc.n.col(0)).norm() / scales.force);

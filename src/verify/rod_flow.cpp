@@ -81,6 +81,13 @@ double stretched_surface_pressure(const Section& section, const Stiffness& stiff
   return -none / (third(1.0) - none);
 }
 
+double taken_by_couple(const Section& section, double bending_stiffness) {
+  const Vector3d N(section.r.x(), section.r.y(), 0.0), t = tangent(section);
+  const double along = t.z(), round = t.dot(Vector3d::UnitZ().cross(N));
+  return (section.m.dot(t) - 3.0 * bending_stiffness * along * round) * section.m.dot(N) / bending_stiffness -
+         section.n.dot(N);
+}
+
 double plane_pressure(const Section& section, const Stiffness& stiffness, const Vector3d& normal) {
   const Eigen::Matrix3d to_body = rotation(section.q).transpose();
   const Vector3d m = to_body * section.m, n = to_body * section.n, N = to_body * normal,
@@ -126,7 +133,8 @@ struct RodFlow::Memory {
   Vector3d n = Vector3d::Zero();  // constant force of a free arc
   Vector3d origin =
       Vector3d::Zero();  // subtracted from r, so that tolerances do not scale with far positions
-  double reached = 0.0;
+  double reached = 0.0, direction = 1.0;
+  Eigen::VectorXd places, pressures;  // prescribed
 
   Memory(const Stiffness& law, equilibrium::ArcKind arc_kind, const Shape& below)
       : stiffness(law), kind(arc_kind), shape(below) {}
@@ -144,8 +152,9 @@ struct RodFlow::Memory {
   int virial_at() const { return on_surface() ? line_size : free_size; }
   int size() const { return virial_at() + loaded(); }
   Section section(const double* y, double s) const;
-  double pressure(const Section& x) const;
+  double pressure(const Section& x, double s) const;
   void rates(const double* y, double s, double* rate) const;
+  void line_rates(const Section& x, double s, const Vector3d& slope, double* rate) const;
   static int right_hand_side(realtype s, N_Vector y, N_Vector rate, void* user) {
     static_cast<const Memory*>(user)->rates(N_VGetArrayPointer(y), s, N_VGetArrayPointer(rate));
     return 0;
@@ -162,7 +171,19 @@ Section RodFlow::Memory::section(const double* y, double s) const {
   return section;
 }
 
-double RodFlow::Memory::pressure(const Section& x) const {
+double RodFlow::Memory::pressure(const Section& x, double s) const {
+  if (shape.has_couple() && places.size() == 0)
+    return taken_by_couple(x, stiffness.K[0]) / shape.lever(x.r, tangent(x));
+  if (places.size() > 0) {
+    double sum = 0.0;
+    for (Eigen::Index i = 0; i < places.size(); ++i) {
+      double term = pressures(i);
+      for (Eigen::Index k = 0; k < places.size(); ++k)
+        if (k != i) term *= (s - places(k)) / (places(i) - places(k));
+      sum += term;
+    }
+    return sum;
+  }
   if (shape.wall()) return plane_pressure(x, stiffness, *shape.wall());
   return stiffness.stretches() ? stretched_surface_pressure(x, stiffness)
                                : surface_pressure(x, stiffness.K[0]);
@@ -180,9 +201,18 @@ void RodFlow::Memory::rates(const double* y, double s, double* rate) const {
   put<3>(rate + 4, 0.5 * (x.q[0] * u + v.cross(u)));
   put<3>(rate + 7, stretch * x.n.cross(t));
   if (loaded()) rate[virial_at()] = (stretch - 1.0) * x.n.dot(t) - 2.0 * stiffness.weight.dot(x.r);
-  if (!on_surface()) return;
-  const double p = pressure(x);
-  put<3>(rate + 10, -p * shape.push(x.r, stretch * t) - stiffness.weight);
+  if (on_surface()) line_rates(x, s, stretch * t, rate);
+  if (direction < 0.0)
+    for (int i = 0; i < size(); ++i) rate[i] = -rate[i];
+}
+
+void RodFlow::Memory::line_rates(const Section& x, double s, const Vector3d& slope, double* rate) const {
+  const double p = pressure(x, s);
+  if (shape.has_couple()) {
+    const Vector3d couple = shape.couple(x.r, slope);
+    for (int i = 0; i < 3; ++i) rate[7 + i] -= p * couple(i);
+  }
+  put<3>(rate + 10, -p * shape.push(x.r, slope) - stiffness.weight);
   rate[13] = p;
 }
 
@@ -209,8 +239,9 @@ RodFlow::RodFlow(RodFlow&&) noexcept = default;
 RodFlow& RodFlow::operator=(RodFlow&&) noexcept = default;
 RodFlow::~RodFlow() = default;
 
-void RodFlow::restart(const Section& start) {
+void RodFlow::restart(const Section& start, bool backward) {
   Memory& memory = *memory_;
+  memory.direction = backward ? -1.0 : 1.0;
   memory.n = start.n;
   memory.origin = memory.on_surface() && !on_wall() ? Vector3d(0.0, 0.0, start.r.z()) : start.r;
   double* y = N_VGetArrayPointer(memory.state);
@@ -224,6 +255,11 @@ void RodFlow::restart(const Section& start) {
   if (memory.loaded()) y[memory.virial_at()] = 0.0;
   memory.reached = 0.0;
   check(CVodeReInit(memory.cvode, 0.0, memory.state), "restart");
+}
+
+void RodFlow::prescribe(const Eigen::VectorXd& places, const Eigen::VectorXd& pressures) {
+  memory_->places = places;
+  memory_->pressures = pressures;
 }
 
 Section RodFlow::advance(double s) {

@@ -257,6 +257,25 @@ BOOST_AUTO_TEST_CASE(friction_has_its_moment_at_touches) {
   BOOST_TEST(ends[0]["after"].get<std::string>().find("not built for lines") != std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(friction_has_its_moment_along_a_line) {
+  const TemporaryFolder folder;
+  std::vector<std::string> lying = on_touches({"rod.radius=0.1", "cylinder.friction=0.2"});
+  lying.push_back("load.tension=0.45");
+  const nlohmann::json state = solved(lying);
+  BOOST_REQUIRE(state["contact"]["topology"] == "tail line gap touch:2 tail");
+  BOOST_TEST(state["stability"]["index"] == 0);
+  // Travel is blocked: the drag is along the axis, and without moment about it. The layer's force is the line's, not the edge's.
+  const double drag = state["F0"].get<double>();
+  BOOST_TEST(std::abs(drag / (0.2 * state["R_tot"].get<double>()) - 1.0) < 1e-10);
+  BOOST_TEST(std::abs(drag / state["plate"]["force"].get<double>() - 1.0) < 1e-10);
+  BOOST_TEST(std::abs(state["contact"]["joints"][2]["force"].get<double>()) < 1e-10);
+  // Past the tension at which a gap opens in the line; every state is certified.
+  lying.insert(lying.end(), {"continuation.from=0.45", "continuation.to=0.4476"});
+  const auto events = followed((folder / "run").string(), lying);
+  BOOST_REQUIRE(events.size() == 1u);
+  BOOST_TEST(events[0]["after"] == "tail line gap line gap touch:2 tail");
+}
+
 BOOST_AUTO_TEST_CASE(a_moment_that_cannot_be_honoured_is_refused) {
   const TemporaryFolder folder;
   const std::vector<std::string> thick = on_touches({"rod.radius=0.2857142857142857"});

@@ -15,15 +15,29 @@ struct OnMeshes {
   Eigen::VectorXd x;
 };
 
-/// The state that the program found, solved again on the same contacts with `elements` elements an arc.
-inline OnMeshes on_uniform_meshes(const equilibrium::Started& found, const scene::Scene& scene, int stages,
-                                  int elements) {
+/// The state that the program found, solved again on the same contacts on other meshes.
+inline OnMeshes on_meshes(const equilibrium::Started& found, const scene::Scene& scene,
+                          const std::vector<chain::ArcMesh>& meshes) {
   const equilibrium::RodProblem& exact = *found.problem;
-  const std::vector<chain::ArcMesh> meshes(exact.chain().link_count(),
-                                           {chain::uniform_mesh(elements), stages});
   OnMeshes out{equilibrium::RodProblem(scene, true, exact.topology(), meshes, exact.keys()), {}};
   out.x = chain::transfer_state(exact.chain(), out.problem.chain(), found.x, out.problem.loads(found.p));
   BOOST_REQUIRE(out.problem.polish(out.x, found.p) >= 0);
+  return out;
+}
+
+/// The same with `elements` elements an arc.
+inline OnMeshes on_uniform_meshes(const equilibrium::Started& found, const scene::Scene& scene, int stages,
+                                  int elements) {
+  const int arcs = found.problem->chain().link_count();
+  return on_meshes(found, scene, std::vector<chain::ArcMesh>(arcs, {chain::uniform_mesh(elements), stages}));
+}
+
+/// A mesh with each element divided into equal parts.
+inline std::vector<double> divided(const std::vector<double>& nodes, int parts) {
+  std::vector<double> out{nodes.front()};
+  for (std::size_t k = 1; k < nodes.size(); ++k)
+    for (int part = 1; part <= parts; ++part)
+      out.push_back(nodes[k - 1] + (nodes[k] - nodes[k - 1]) * part / parts);
   return out;
 }
 

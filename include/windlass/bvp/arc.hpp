@@ -19,8 +19,9 @@
 /// matrix of a chain is a sum of Hessians of S, one an arc, condensed to the arc's ends.
 namespace windlass::bvp {
 
-/// Largest sizes an arc's ends can have: two quaternions (3 + 3), a force (3) and the length (1).
-inline constexpr int max_ends = 10;
+/// Largest sizes an arc's ends can have: two quaternions (3 + 3), a force (3) and the length (1); of a line that slips with the
+/// moment of its friction (3 + 3), (2), (1) and what it changes (2).
+inline constexpr int max_ends = 11;
 using EndsVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_ends, 1>;
 using EndsMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_ends, max_ends>;
 
@@ -35,7 +36,8 @@ struct ArcPoint {
   double travel = 0.0;      ///< ω: the rod runs along itself at ω times the speed of what slips on it
   double compliance = 0.0;  ///< 1/EA of a rod that stretches; extensible arcs only
   const double* weight =
-      nullptr;  ///< known force per length: n falls by it, and n is that of the start; null: none
+      nullptr;       ///< known force per length: n falls by it, and n is that of the start; null: none
+  double arm = 0.0;  ///< of the friction about the centre line; arcs that carry its moment only
 };
 
 /// Samples of an arc at all its Lagrange points, ends included.
@@ -43,10 +45,13 @@ struct ArcSamples {
   Eigen::VectorXd sigma;     ///< scaled arclength in [0, 1]; N
   Eigen::MatrixXd q;         ///< ambient × N
   Eigen::MatrixXd momentum;  ///< ∂L/∂q' in the tangent basis; tangent × N (superconvergent at element ends)
-  Eigen::MatrixXd displacement;  ///< ∫₀ d ds; forces × N
-  Eigen::MatrixXd slope;         ///< dq/ds in the tangent basis; tangent × N (empty: closed-form arcs)
-  std::vector<int> nodes = {};   ///< indices of the element ends among the N samples
-  Eigen::MatrixXd force = {};    ///< n along the arc; forces × N (empty: conserved)
+  Eigen::MatrixXd displacement;   ///< ∫₀ d ds; forces × N
+  Eigen::MatrixXd slope;          ///< dq/ds in the tangent basis; tangent × N (empty: closed-form arcs)
+  std::vector<int> nodes = {};    ///< indices of the element ends among the N samples
+  Eigen::MatrixXd force = {};     ///< n along the arc; forces × N (empty: conserved)
+  Eigen::VectorXd pressure = {};  ///< where it is an unknown of the arc; N
+  double pressed = 0.0;           ///< ∫ of it
+  Eigen::VectorXd lever = {};     ///< w of it: the force along the normal is less by w p; N
 };
 
 /// An interior configuration that an elimination holds by a spring, as the arc held at its ends alone would not resist:
@@ -64,8 +69,11 @@ class Arc {
   virtual int tangent() const = 0;  ///< degrees of freedom per configuration
   virtual int forces() const = 0;   ///< components of n
   virtual int interior_nodes() const { return 0; }
-  int interior_ambient() const { return interior_nodes() * ambient(); }
-  int interior_tangent() const { return interior_nodes() * tangent(); }
+  /// Stored numbers and degrees of freedom of an interior configuration; its ends may have more.
+  virtual int node_ambient() const { return ambient(); }
+  virtual int node_tangent() const { return tangent(); }
+  int interior_ambient() const { return interior_nodes() * node_ambient(); }
+  int interior_tangent() const { return interior_nodes() * node_tangent(); }
   /// Components of n that a load along the arc changes: n is then the force at its start. Such a load has no potential, the
   /// condensed matrix is not symmetric, and S only names the place of what the arc answers.
   virtual int carried() const { return 0; }

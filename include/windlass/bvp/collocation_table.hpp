@@ -38,4 +38,7 @@ Eigen::VectorXd gauss_points(int stages);
 /// Gauss-Lobatto points on [0, 1], ascending, stages + 1 of them.
 Eigen::VectorXd lobatto_points(int stages);
 
+/// ∫₀^gauss(g) φ_k over [0, 1], φ the Lagrange basis of the Gauss points: the stages of Gauss' method. M × M
+Eigen::MatrixXd gauss_stages(const CollocationTable& table);
+
 }  // namespace windlass::bvp

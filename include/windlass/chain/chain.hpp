@@ -162,6 +162,10 @@ class Chain {
   /// Outward point force on the rod at a touch, from the forces on its two sides; on the half-turn's axis the other side
   /// is the image of this one.
   double touch_force(const VectorXd& x, const Loads& loads, int joint) const;
+  /// Force of a layer of pressure at the edge of a line.
+  double edge_layer(const VectorXd& x, const Loads& loads, int joint) const {
+    return joints_[joint]->flux(coordinates(x, joint), loaded(x, loads, joint));
+  }
   double* force(VectorXd& x, int link) const { return x.data() + force_at_[link]; }
   double* interior(VectorXd& x, int link) const { return x.data() + interior_at_[link]; }
   const double* interior(const VectorXd& x, int link) const { return x.data() + interior_at_[link]; }
@@ -171,12 +175,19 @@ class Chain {
     contact::Attachment left, right;
     VectorXd n;
     const double* interior = nullptr;
-    double length = 0.0, friction = 0.0, travel = 0.0, compliance = 0.0;
+    double length = 0.0, friction = 0.0, travel = 0.0, compliance = 0.0, arm = 0.0;
     VectorXd weight = {};  ///< conjugate to n; empty: none
     bvp::ArcPoint point() const {
-      return {left.q.data(), right.q.data(), interior,
-              n.data(),      length,         friction,
-              travel,        compliance,     weight.size() > 0 ? weight.data() : nullptr};
+      return {left.q.data(),
+              right.q.data(),
+              interior,
+              n.data(),
+              length,
+              friction,
+              travel,
+              compliance,
+              weight.size() > 0 ? weight.data() : nullptr,
+              arm};
     }
   };
   /// @throws std::domain_error if a tail's length is not positive.

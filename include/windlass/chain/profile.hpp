@@ -39,6 +39,7 @@ struct Contact {
   Eigen::Vector3d r, normal;                                 ///< outward; of two strands: away from the other
   Eigen::Vector3d surface_normal = Eigen::Vector3d::Zero();  ///< of the obstacle, outward
   double force = 0.0;  ///< outward on the rod; >= 0 where the contact holds
+  double layer = 0.0;  ///< at an edge, force of a layer of the line's pressure there; >= 0 likewise
   /// g'' at a touch, >= 0; of two strands the least curvature of their distance as either place moves.
   double gap_curvature = 0.0;
   /// Of two strands: G″ of G(s) = min |r(s) − r₂(s₂)| over the other's place, and how fast that goes along with s.

@@ -145,6 +145,19 @@ class Joint {
     return (void)w, (void)n, (void)compliance, std::nullopt;
   }
 
+  /// What the moment of a point force's friction adds to the location condition, and its derivatives.
+  struct Lift {
+    double value = 0.0;
+    SmallVector by_w;  ///< tangent
+    double by_travel = 0.0;
+  };
+  virtual std::optional<Lift> lift(const double* w, const Loads& loads) const {
+    return (void)w, (void)loads, std::nullopt;
+  }
+  /// Place of a contact's force among the coordinates, −1: it is none; and what of it flows into the line's pressure.
+  virtual int force_coordinate() const { return -1; }
+  virtual double flux(const double* w, const Loads& loads) const { return (void)w, (void)loads, 0.0; }
+
   /// Derivative of the dead potential −F·X with w, for joints that carry a load themselves (strut ends).
   virtual SmallVector dead_load(const double* w, const Loads& loads) const {
     (void)w, (void)loads;

@@ -123,6 +123,8 @@ class RodProblem final : public continuation::Problem {
   bool admits(const Topology& topology) const { return !missing_on(topology); }
   /// The key of what is not built for these contacts; null: nothing.
   const char* missing_on(const Topology& topology) const;
+  /// Does the friction of a cylinder that slides have a moment about the centre line, or may it get one?
+  bool coupled() const;
   /// Does the cylinder slip along the rod? Its force then has no potential, and no index counts anything.
   bool dragged() const { return chain_->dragged(); }
   double last_error() const { return last_error_; }

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "windlass/bvp/arc.hpp"
 #include "windlass/bvp/collocation_table.hpp"
+#include "windlass/rod/dense_arc.hpp"
 #include "windlass/rod/surface_density.hpp"
 
 namespace windlass::rod {
@@ -32,7 +32,7 @@ LinePressure line_pressure(const SurfaceDensity& rod, const Eigen::Vector2d& q, 
 /// p a function of state and n. Collocated at the Gauss points like the rest (bvp/collocation_table.hpp): order 2M at the
 /// nodes. Count: 2(NM − 1) interior unknowns (ψ, χ) and as many equations; n follows along the arc, element by element, from
 /// n(0), so that its derivatives reach all that lies before: the matrix is full, and not symmetric.
-class DraggedLineArc final : public bvp::Arc {
+class DraggedLineArc final : public DenseArc {
  public:
   DraggedLineArc(const SurfaceDensity& rod, const std::vector<double>& mesh, int stages);
 
@@ -46,13 +46,6 @@ class DraggedLineArc final : public bvp::Arc {
   std::vector<double> mesh() const override { return still_->mesh(); }
 
   void gradient(const bvp::ArcPoint& at, double* interior, bvp::EndsVector& ends) const override;
-  void factor(const bvp::ArcPoint& at, bvp::EndsMatrix& condensed) override;
-  void reduce(double* rhs_interior, bvp::EndsVector& rhs_ends) const override;
-  void reduce_transposed(double* rhs_interior, bvp::EndsVector& rhs_ends) const override;
-  void expand(double* interior, const bvp::EndsVector& solution_ends) const override;
-  void expand_transposed(double* interior, const bvp::EndsVector& solution_ends) const override;
-  int negative_pivots() const override { return negative_; }
-  void hessian(const bvp::ArcPoint& at, std::vector<Eigen::Triplet<double>>& entries) const override;
   Eigen::VectorXd metric(const bvp::ArcPoint& at) const override;
   bvp::ArcSamples sample(const bvp::ArcPoint& at) const override;
   double energy(const bvp::ArcPoint& at) const override { return still_->energy(at); }
@@ -80,8 +73,7 @@ class DraggedLineArc final : public bvp::Arc {
   void element_gradient(const bvp::ArcPoint& at, int element, const Element& state,
                         Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, max_points>& g,
                         Eigen::Vector2d& displacement) const;
-  /// Derivatives of the whole arc's gradient, to matrix_.
-  void linearise(const bvp::ArcPoint& at) const;
+  void linearise(const bvp::ArcPoint& at) const override;
   /// Adds an element's share; carry_: change of n at its start, and on return at its end.
   void linearise(const bvp::ArcPoint& at, int element, const Element& state) const;
 
@@ -90,11 +82,7 @@ class DraggedLineArc final : public bvp::Arc {
   std::vector<double> mesh_;
   const bvp::CollocationTable& table_;
   Eigen::MatrixXd stage_;  ///< a(g, k): ∫₀^gauss(g) of the interpolant of values at the Gauss points
-  Eigen::PartialPivLU<Eigen::MatrixXd> inner_;
-  Eigen::MatrixXd solved_, weighted_;  ///< K_ii⁻¹ K_ie, K_ei
-  Eigen::MatrixXd solved_left_;        ///< K_ii⁻ᵀ K_eiᵀ
-  int negative_ = 0;
-  mutable Eigen::MatrixXd matrix_, carry_, at_stages_;  // work space
+  mutable Eigen::MatrixXd carry_, at_stages_;  // work space
 };
 
 }  // namespace windlass::rod

@@ -49,6 +49,10 @@ double surface_pressure(const Section& section, double bending_stiffness);
 /// in p, which is found from its values without any and with a unit of it.
 double stretched_surface_pressure(const Section& section, const Stiffness& stiffness);
 
+/// What the moment of the friction along a line takes of the force along the normal: (M − 3B sin ψ cos ψ) ψ' − n·N. It is w p with
+/// w = r mu d_t, where b·m' of the moment B κ_n about the binormal b is n·N + w p.
+double taken_by_couple(const Section& section, double bending_stiffness);
+
 /// Contact force per length that keeps the centreline on a plane with the normal N, for any section and natural shape.
 ///
 /// The constraint N·t = 0 holds along the rod, and so does its third derivative, with t = R e₃ and R' = R [u]×. In the body
@@ -72,7 +76,12 @@ class RodFlow {
   ~RodFlow();
 
   /// Begins at section `start`, s = 0.
-  void restart(const Section& start);
+  /// @param backward  against the arclength
+  void restart(const Section& start, bool backward = false);
+  /// Of a line whose friction has a moment about the centre line p is what the force along the normal says, taken_by_couple over
+  /// w; that decays within w against the sign of w only, and says nothing where w vanishes. There: the polynomial through these
+  /// places, counted from the next restart, and values; empty: none.
+  void prescribe(const Eigen::VectorXd& places, const Eigen::VectorXd& pressures);
   /// Goes on to s > 0 counted from the restart, larger than before. @throws std::runtime_error when CVODE gives up
   Section advance(double s);
   /// ∫ p ds since the restart [EI/ρ²]

@@ -32,6 +32,10 @@ class Shape {
   Eigen::Vector3d couple(const Eigen::Vector3d& r, const Eigen::Vector3d& t) const {
     return -arm_ * outward(r, t).cross(push(r, t));
   }
+  /// w = arm mu d·t of a rod with the unit tangent t: what the moment is about the binormal t × N, per force along the normal.
+  double lever(const Eigen::Vector3d& r, const Eigen::Vector3d& t) const {
+    return arm_ * (push(r, t) - outward(r, t)).dot(t);
+  }
   bool has_edge() const { return std::isfinite(outer_radius_); }
   /// The same plate without an end.
   Shape without_edge() const {

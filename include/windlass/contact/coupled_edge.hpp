@@ -1,0 +1,59 @@
+#pragma once
+
+#include "windlass/contact/spatial_joints.hpp"
+
+namespace windlass::contact::spatial {
+
+/// Edge of a line contact with a cylinder that slips along the rod, whose friction has a moment about the centre line
+/// (rod/coupled_line_arc.hpp): w = (u, ψ, χ, F), arclength unknown; F the force that the edge carries beside the line's pressure.
+/// With the lever w = r mu d_t and n₁ = ψ'(m₃ − 3B sin ψ cos ψ)
+///
+///  - where the pressure flows in from the edge, F is the flux w p there, the force of a layer as long as |w|: no point force;
+///  - else F is a point force, with its friction F mu d and moment: the curvature jumps, the gap begins with g'' = |w| F/B.
+///
+/// Equations 6: those of an Edge, of which the location is the jump of the curvature, and the jump of the force along the normal,
+/// F = ±(N·n − n₁ + Φ), Φ = w p what flows out of the line (+ where it begins).
+class CoupledEdge final : public Joint {
+ public:
+  CoupledEdge(Side line_side, double bending_stiffness, SurfacePointer surface = obstacle::unit_cylinder())
+      : line_(line_side),
+        stiffness_(bending_stiffness),
+        surface_(surface),
+        edge_(line_side, bending_stiffness, surface) {}
+  JointKind kind() const override { return JointKind::edge; }
+  int ambient() const override { return 5; }
+  int tangent() const override { return 5; }
+  int height_coordinate() const override { return edge_.height_coordinate(); }
+  int spin_coordinate() const override { return edge_.spin_coordinate(); }
+  int force_coordinate() const override { return 4; }
+  bool locates() const override { return true; }
+  double slide(const double* w) const override { return edge_.slide(w); }
+  int places() const override { return edge_.places(); }
+  Attachment attach(Side side, const double* w, const Loads& loads) const override;
+  void curvature(Side side, const double* w, const Loads& loads, const SmallVector& g_q, const SmallVector& f,
+                 SmallMatrix& out) const override;
+  std::optional<Drag> drag(Side side, const double* w, const Loads& loads,
+                           const SmallVector& g) const override;
+  Location location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const override;
+  std::optional<Lift> lift(const double* w, const Loads& loads) const override;
+  double flux(const double* w, const Loads& loads) const override;
+  void retract(const double* w, const double* dw, double* out) const override;
+  const obstacle::Surface* surface() const override { return surface_.get(); }
+  Eigen::Vector2d on_surface(const double* w) const override { return {w[0], w[1]}; }
+  void adopt(const Place& place, double* w) const override;
+
+ private:
+  /// The lever w, positive where the pressure flows in, with its derivatives with ψ and ω.
+  struct Inflow {
+    double value, by_psi, by_travel;
+    bool any() const { return value > 0.0; }
+  };
+  Inflow inflow(double psi, const Loads& loads) const;
+  double side() const { return line_ == Side::left ? 1.0 : -1.0; }
+  Side line_;
+  double stiffness_;  ///< B
+  SurfacePointer surface_;
+  Edge edge_;
+};
+
+}  // namespace windlass::contact::spatial

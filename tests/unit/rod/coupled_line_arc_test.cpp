@@ -1,0 +1,95 @@
+// The line contact on a cylinder that slips, with the moment of the friction: derivatives against differences, limits.
+#include "windlass/rod/coupled_line_arc.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+namespace {
+
+using namespace windlass;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+const rod::SurfaceDensity coupled_density{1.2, 0.7};
+
+/// The arc with its unknowns in one list: interior, q_a, q_b, n, ℓ, ω, nothing; q with the force at the end.
+struct Coupled {
+  rod::CoupledLineArc arc{coupled_density, {0.0, 0.3, 0.45, 1.0}, 4};
+  VectorXd z{arc.interior_tangent() + arc.ends()};
+  double friction = 0.4, radius = 0.3;
+
+  /// @param tilt  of the arc: its sign is that of the lever, where the rod does not run along itself
+  explicit Coupled(double tilt, double travel, double bend = 0.4) {
+    const int nodes = arc.interior_nodes() + 2;
+    for (int k = 0; k < nodes; ++k) {
+      const double s = static_cast<double>(k) / (nodes - 1);
+      z(place(k, nodes)) = tilt + bend * (s - 0.5) + 0.05 * std::sin(3.0 * s);
+      z(place(k, nodes) + 1) = 0.3 * std::cos(2.0 * s) - 0.2 * s;
+    }
+    const int inner = arc.interior_tangent();
+    z(inner + 2) = 0.17, z(inner + 5) = 0.23;
+    z.tail(5) << 1.8, 0.3, 1.3, travel, 0.0;
+  }
+  int place(int k, int nodes) const {
+    return k == 0 ? arc.interior_tangent() : k + 1 == nodes ? arc.interior_tangent() + 3 : 2 * (k - 1);
+  }
+  bvp::ArcPoint point(const VectorXd& at) const {
+    const double* ends = at.data() + arc.interior_tangent();
+    return {ends, ends + 3, at.data(), ends + 6, ends[8], friction, ends[9], 0.0, nullptr, radius};
+  }
+  VectorXd gradient(const VectorXd& at) const {
+    VectorXd out(z.size());
+    bvp::EndsVector ends;
+    arc.gradient(point(at), out.data(), ends);
+    out.tail(arc.ends()) = ends;
+    return out;
+  }
+  MatrixXd matrix() const {
+    MatrixXd dense = MatrixXd::Zero(z.size(), z.size());
+    std::vector<Eigen::Triplet<double>> entries;
+    arc.hessian(point(z), entries);
+    for (const auto& e : entries) dense(e.row(), e.col()) += e.value();
+    return dense;
+  }
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(coupled_line_arc)
+
+BOOST_AUTO_TEST_CASE(matrix_is_the_derivative_of_the_gradient) {
+  constexpr double h = 1e-5,
+                   bound = 2e-7;  // third derivatives are some 100 where layers are as short as here
+  // The pressure flows leftward, rightward, from both ends, from the middle.
+  for (const Coupled& f :
+       {Coupled(0.5, 0.0), Coupled(-0.5, 0.0), Coupled(0.3, 0.3), Coupled(0.3, 0.3, -0.4)}) {
+    const MatrixXd matrix = f.matrix();
+    for (Eigen::Index k = 0; k < f.z.size(); ++k) {
+      VectorXd up = f.z, down = f.z;
+      up(k) += h, down(k) -= h;
+      const VectorXd difference = (f.gradient(up) - f.gradient(down)) / (2.0 * h) - matrix.col(k);
+      BOOST_TEST(difference.cwiseAbs().maxCoeff() < bound,
+                 "column " << k << " off by " << difference.cwiseAbs().maxCoeff());
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(without_an_arm_it_is_the_line_without_moment) {
+  Coupled f(0.5, 0.2);
+  f.radius = 0.0;
+  const rod::DraggedLineArc plain(coupled_density, f.arc.mesh(), 4);
+  const int inner = f.arc.interior_tangent();
+  VectorXd interior(inner), plain_interior(inner);
+  bvp::EndsVector ends, plain_ends;
+  const bvp::ArcPoint at = f.point(f.z);
+  f.arc.gradient(at, interior.data(), ends);
+  plain.gradient(at, plain_interior.data(), plain_ends);
+  constexpr double rounding = 1e-13;
+  BOOST_TEST((interior - plain_interior).norm() < rounding);
+  BOOST_TEST((ends.head<2>() - plain_ends.head<2>()).norm() < rounding);
+  BOOST_TEST((ends.segment<2>(3) - plain_ends.segment<2>(2)).norm() < rounding);
+  BOOST_TEST((ends.segment<2>(6) - plain_ends.segment<2>(4)).norm() < rounding);
+  BOOST_TEST((ends.tail<2>() - plain_ends.tail<2>()).norm() < rounding);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

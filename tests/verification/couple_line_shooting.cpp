@@ -1,0 +1,158 @@
+#include "couple_line_shooting.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <boost/numeric/odeint.hpp>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+namespace windlass::test {
+
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+struct OnLine {
+  Vector3d r, t, d1, m, n;
+  double pressed = 0.0;  ///< ∫ p ds
+};
+
+/// Unknowns: at the right edge angle, height, inclination, turn, the moments about N and t, the force (3); τ; the places of both
+/// edges, the point force at the left one; place and force of the plate's touch. At the right edge the curvature is the surface's.
+struct LineOracle {
+  const scene::Scene& scene;
+  static constexpr int size = 15;
+
+  OnLine along(const OnLine& at, double length, bool line) const {
+    using State = std::array<double, 16>;
+    const double b = scene.rod.bending_stiffness, c = scene.rod.twist_ratio * b;
+    const double mu = *scene.friction, arm = scene.friction_arm();
+    const auto rates = [&](const State& x, State& rate, double) {
+      const Eigen::Map<const Vector3d> r(&x[0]), t(&x[3]), d1(&x[6]), m(&x[9]), n(&x[12]);
+      const double twisting = m.dot(t);
+      const Vector3d u = (m - twisting * t) / b + twisting / c * t;
+      Vector3d push = Vector3d::Zero(), couple = Vector3d::Zero();
+      double p = 0.0;
+      if (line) {
+        const Vector3d out(r.x(), r.y(), 0.0), whole = out + mu * Vector3d::UnitZ();
+        const double round = Vector3d::UnitZ().cross(out).dot(t);
+        const double free = (twisting - 3.0 * b * t.z() * round) * m.dot(out) / b;
+        p = (free - n.dot(out)) / (arm * mu * t.z());
+        push = p * whole, couple = -arm * out.cross(push);
+      }
+      Eigen::Map<Vector3d>{&rate[0]} = t;
+      Eigen::Map<Vector3d>{&rate[3]} = u.cross(t);
+      Eigen::Map<Vector3d>{&rate[6]} = u.cross(d1);
+      Eigen::Map<Vector3d>{&rate[9]} = n.cross(t) - couple;
+      Eigen::Map<Vector3d>{&rate[12]} = -push;
+      rate[15] = p;
+    };
+    State x;
+    const Vector3d* all[] = {&at.r, &at.t, &at.d1, &at.m, &at.n};
+    for (int k = 0; k < 5; ++k) Eigen::Map<Vector3d>{&x[static_cast<std::size_t>(3 * k)]} = *all[k];
+    x[15] = at.pressed;
+    boost::numeric::odeint::runge_kutta_fehlberg78<State> stepper;
+    // Steps of a seventh of the layer's width and less: error (1/7)^8, decaying.
+    const double step = line ? arm * mu / 35.0 : 0.05;
+    const int steps = 10 + static_cast<int>(std::abs(length) / step);
+    for (int k = 0; k < steps; ++k) stepper.do_step(rates, x, length * k / steps, length / steps);
+    OnLine out;
+    Vector3d* to[] = {&out.r, &out.t, &out.d1, &out.m, &out.n};
+    for (int k = 0; k < 5; ++k) *to[k] = Eigen::Map<Vector3d>{&x[static_cast<std::size_t>(3 * k)]};
+    out.pressed = x[15];
+    return out;
+  }
+
+  OnLine edge(const VectorXd& x) const {
+    const Vector3d out(std::sin(x(0)), -std::cos(x(0)), 0.0), round(std::cos(x(0)), std::sin(x(0)), 0.0);
+    OnLine at;
+    at.r = out + x(1) * Vector3d::UnitZ();
+    at.t = std::cos(x(2)) * round + std::sin(x(2)) * Vector3d::UnitZ();
+    const Vector3d across = out.cross(at.t);
+    at.d1 = std::cos(x(3)) * out + std::sin(x(3)) * across;
+    at.m = x(4) * out + x(5) * at.t + scene.rod.bending_stiffness * std::pow(std::cos(x(2)), 2) * across;
+    at.n = x.segment<3>(6);
+    return at;
+  }
+
+  void end(const OnLine& at, const Vector3d& pull, double side, VectorXd& out, int row) const {
+    const Vector3d along = side * pull.normalized(), d2 = -Vector3d::UnitZ();
+    out.segment<3>(row) << at.d1.dot(along), at.d1.dot(d2), at.t.dot(d2);
+    out.segment<3>(row + 3) = side * at.n - pull;
+  }
+
+  VectorXd residual(const VectorXd& x, Dragged* found = nullptr) const {
+    VectorXd out(size);
+    const double T = scene.load.tension, half = 0.5 * scene.load.angle, end_at = 0.5 * scene.rod.length;
+    const double tau = x(9), right = x(10), left = x(11), force = x(12), plate = x(13);
+    const Vector3d pull(std::cos(half), std::sin(half), 0.0), other(-pull.x(), pull.y(), 0.0);
+    OnLine at = along(edge(x), plate - right, false);
+    out(0) = scene.plate->height - at.r.z();
+    out(1) = at.t.z();
+    at.n += x(14) * Vector3d::UnitZ();
+    end(along(at, end_at - plate, false), (T + tau) * pull, 1.0, out, 2);
+    OnLine begin = along(edge(x), left - right, true);
+    const Vector3d outward(begin.r.x(), begin.r.y(), 0.0),
+        whole = force * (outward + *scene.friction * Vector3d::UnitZ());
+    begin.n += whole;
+    begin.m -= scene.friction_arm() * outward.cross(whole);
+    end(along(begin, -end_at - left, false), (T - tau) * other, -1.0, out, 8);
+    out(14) = left + right;
+    if (found) {
+      found->contact_force = force - begin.pressed;  // integrated leftward
+      found->drag = *scene.friction * found->contact_force;
+      found->travelled = tau;
+    }
+    return out;
+  }
+};
+
+VectorXd start(const equilibrium::Solution& guess) {
+  VectorXd x(LineOracle::size);
+  const auto& line = guess.arcs[1];
+  const Eigen::Index last = line.s.size() - 1;
+  const Eigen::Vector4d q = line.q.col(last);
+  const Eigen::Matrix3d d = Eigen::Quaterniond(q(0), q(1), q(2), q(3)).toRotationMatrix();
+  const Vector3d r = line.r.col(last), out = Vector3d(r.x(), r.y(), 0.0).normalized(), t = d.col(2);
+  x(0) = std::atan2(r.x(), -r.y());
+  x(1) = r.z();
+  x(2) = std::atan2(t.z(), Vector3d::UnitZ().cross(out).dot(t));
+  x(3) = std::atan2(d.col(0).dot(out.cross(t)), d.col(0).dot(out));
+  x(4) = line.m.col(last).dot(out);
+  x(5) = line.m.col(last).dot(t);
+  x.segment<3>(6) = guess.arcs[2].n.col(0);
+  x(9) = guess.pull_difference;
+  x(10) = guess.joints[2].s, x(11) = guess.joints[1].s, x(12) = guess.joints[1].force;
+  x(13) = guess.joints[3].s, x(14) = guess.joints[3].force;
+  return x;
+}
+
+}  // namespace
+
+Dragged shot_from_line(const equilibrium::Solution& guess, const scene::Scene& scene) {
+  const LineOracle oracle{scene};
+  VectorXd x = start(guess);
+  constexpr double off = 1e-5;  // so that it has to find the state itself
+  x += off * VectorXd::LinSpaced(x.size(), -1.0, 1.0);
+  for (int k = 0; k < 20; ++k) {
+    const VectorXd f = oracle.residual(x);
+    Eigen::MatrixXd j(f.size(), x.size());
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      const double step = 1e-6;
+      VectorXd up = x, down = x;
+      up(i) += step, down(i) -= step;
+      j.col(i) = (oracle.residual(up) - oracle.residual(down)) / (2.0 * step);
+    }
+    const VectorXd dx = -j.fullPivLu().solve(f);
+    x += dx;
+    if (dx.lpNorm<Eigen::Infinity>() > 1e-10) continue;
+    Dragged found;
+    oracle.residual(x, &found);
+    return found;
+  }
+  BOOST_FAIL("the oracle did not converge");
+  return {};
+}
+
+}  // namespace windlass::test
