@@ -65,6 +65,7 @@ void Walker::adapt() {
     settle(segment, *sample);
     state_.last_ds = last_ds;  // the same point: the rates of events still run from the one before
     if (described_anew) {
+      for (auto& [name, sign] : state_.signs) sign = 1;
       state_.previous_events.clear();
     } else {
       state_.signs = std::move(signs);  // what only the new mesh makes negative is still to be passed
@@ -247,6 +248,31 @@ bool Walker::walk_back_to(double stop) {
 }
 
 // Corrects the new problem's state at p, or slightly beyond, and finds the direction in which it is valid.
+// Beyond an event a branch may turn, but not into itself.
+bool Walker::leads_back(Problem& next, const Iterate& it, const Tangent& way) const {
+  const double length = 0.1 * step_length_.usual();
+  Segment ahead(next.clone(), options_, it.x, it.p, way);
+  Segment behind(state_.problem->clone(), options_, state_.x, state_.p,
+                 Tangent{-state_.tangent.x, -state_.tangent.p});
+  const Sample* there = ahead.at(length, false);
+  const Sample* far = there ? behind.at(length, false) : nullptr;
+  if (!far) return false;
+  const Sample* same = behind.at_parameter(ahead.parameter(*there), behind.base(), *far, false);
+  if (!same) return false;
+  Problem &now = *ahead.problem(), &before = *behind.problem();
+  const Vector found = now.fingerprint(there->it.x, there->it.p),
+               known = before.fingerprint(same->it.x, same->it.p),
+               here = before.fingerprint(state_.x, state_.p);
+  if (found.size() != known.size()) return false;
+  // In all that changes along the branch; how many contacts there are, say, does not.
+  constexpr double next_to_way = 0.01, rounding = 1e-9;
+  for (Eigen::Index i = 0; i < found.size(); ++i) {
+    const double way_of_it = std::abs(known(i) - here(i));
+    if (way_of_it > rounding && std::abs(found(i) - known(i)) > next_to_way * way_of_it) return false;
+  }
+  return true;
+}
+
 bool Walker::enter(const Transition& transition, int direction, const std::string& passed,
                    std::string& failure) {
   const std::shared_ptr<Problem>& problem = transition.problem;
@@ -271,6 +297,10 @@ bool Walker::enter(const Transition& transition, int direction, const std::strin
         if (transition.silent ? sign != direction : !valid_direction(problem, it.x, it.p, tangent, passed)) {
           failure = "the new problem is not valid in either direction";
           continue;
+        }
+        if (sign != direction && leads_back(*problem, it, tangent)) {
+          failure = "what follows is the branch that led here";
+          return false;
         }
         Segment segment(problem, options_, it.x, it.p, tangent);
         Sample* sample = segment.at(0.0, true);

@@ -406,6 +406,8 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
         if (event.redrawn) {  // laid unevenly touches pull, too
           const Successor anew = with_touches(skeleton_of(strip).strip.successor(), profile, topology);
           if (!alike(anew, strip, event.s)) out.insert(out.begin(), anew);
+          const auto by_suction = line_opens_by_suction(event.place, profile, topology, strip);
+          out.insert(out.begin(), by_suction.begin(), by_suction.end());
         }
         return out;
       }

@@ -158,40 +158,30 @@ std::optional<ContactEvent> laid_between(const Profile& profile, const chain::St
   return event;
 }
 
-namespace {
-
-/// Touches next to each other inside a line that pull together: how much, and over which width, between the places where the pressure
-/// that they stand for, linear between touches, is zero.
-struct Pull {
-  double force = 0.0, width = 0.0;
-};
-
-Pull pull_about(const Profile& profile, const chain::Strands& strands, const std::vector<int>& strand,
-                int joint) {
+Suction suction_about(const Profile& profile, const chain::Strands& strands, int joint) {
+  const chain::StrandLine& line = strands.lines()[strands.line_of(joint)];
+  const bool of_first = std::find(line.first.begin(), line.first.end(), joint) != line.first.end();
+  const std::vector<int>& strand = of_first ? line.first : line.second;
   std::map<int, double> force;
   for (const Contact& c : profile.contacts)
     if (c.coupling >= 0) force[c.joint] = c.force;
-  const auto place = [&](std::size_t k) { return profile.pieces[strand[k]].s(0); };
-  const auto pressure = [&](std::size_t k) {  // an end's force stands for half a link
+  const auto place = [&](int k) { return profile.pieces[strand[k]].s(0); };
+  const auto pressure = [&](int k) {  // an end's force stands for half a link
     if (strands.inside_line(strand[k])) return force.at(strand[k]) / span_of(profile, strands, strand[k]);
-    const std::size_t beside = k == 0 ? 1 : k - 1;
-    return force.at(strand[k]) / (0.5 * std::abs(place(k) - place(beside)));
+    return force.at(strand[k]) / (0.5 * std::abs(place(k) - place(k == 0 ? 1 : k - 1)));
   };
-  const auto at = static_cast<std::size_t>(std::find(strand.begin(), strand.end(), joint) - strand.begin());
-  std::size_t first = at, last = at;
-  while (first > 1 && force.at(strand[first - 1]) < 0.0) --first;
-  while (last + 2 < strand.size() && force.at(strand[last + 1]) < 0.0) ++last;
-  const auto zero = [&](std::size_t pulls, std::size_t beyond) {
+  Suction out;
+  out.first = out.last = static_cast<int>(std::find(strand.begin(), strand.end(), joint) - strand.begin());
+  while (out.first > 1 && force.at(strand[out.first - 1]) < 0.0) --out.first;
+  while (out.last + 1 < line.links() && force.at(strand[out.last + 1]) < 0.0) ++out.last;
+  const auto zero = [&](int pulls, int beyond) {
     const double p = pressure(pulls), q = std::max(pressure(beyond), 0.0);
     return place(pulls) + (place(beyond) - place(pulls)) * p / (p - q);
   };
-  Pull out;
-  for (std::size_t k = first; k <= last; ++k) out.force += force.at(strand[k]);
-  out.width = std::abs(zero(last, last + 1) - zero(first, first - 1));
+  for (int k = out.first; k <= out.last; ++k) out.force += force.at(strand[k]);
+  out.begin = zero(out.first, out.first - 1), out.end = zero(out.last, out.last + 1);
   return out;
 }
-
-}  // namespace
 
 double carried_pull(const Profile& profile, const chain::Strands& strands, const Contact& contact) {
   const int joint = contact.joint;
@@ -206,8 +196,8 @@ double carried_pull(const Profile& profile, const chain::Strands& strands, const
   const double opened = opened_at_end + part * (opened_between_strands - opened_at_end);
   const double alone = 12.0 * opened * stiffness / (h * h * h);
   if (contact.force >= 0.0) return alone;
-  const Pull pull = pull_about(profile, strands, strand, joint);
-  const double together = 15.36 * opened * stiffness / std::pow(pull.width, 3);
+  const Suction pull = suction_about(profile, strands, joint);
+  const double together = 15.36 * opened * stiffness / std::pow(pull.width(), 3);
   return std::min(alone, together) + pull.force - contact.force;
 }
 

@@ -51,6 +51,15 @@ std::optional<LaidAnew> laid_anew_at(const chain::Profile& profile, const chain:
 std::optional<ContactEvent> laid_between(const chain::Profile& profile, const chain::Strands& strands,
                                          int link);
 
+/// Touches next to each other inside a line that pull together: those from `first` to `last` of the line's, the force of all, and the
+/// places on their strand between which the pressure that they stand for, linear between touches, is below zero.
+struct Suction {
+  int first = 0, last = 0;
+  double force = 0.0, begin = 0.0, end = 0.0;
+  double width() const { return end > begin ? end - begin : begin - end; }
+};
+Suction suction_about(const chain::Profile& profile, const chain::Strands& strands, int joint);
+
 /// How far apart strands would come where a touch inside a line of theirs pulls [ρ]. Where the cylinder's point force at the edge of
 /// a line on it pushes a strand off the other, by Q, the pull opens them by 2·0.0044 Q⁴/p³: some 4e-9. The energy that the line does
 /// wrong there is Q times that, 1e-9 at most.

@@ -328,59 +328,6 @@ Successor with_more_touches(const chain::Profile& profile, const StrandLine& lin
 
 }  // namespace
 
-std::optional<Successor> line_opens(int joint, const Topology& topology, Strip strip) {
-  const Strands strands(topology);
-  const int which = strands.line_of(joint);
-  if (which < 0 || strip.on[joint].line == 0) return std::nullopt;
-  const StrandLine& line = strands.lines()[which];
-  const bool own_image = line.own_image();
-  const int last = line.links();
-  int at = 0;
-  while (line.first[at] != joint && line.second[at] != joint) ++at;
-  const int from = own_image ? std::min(at, last - at) : at, to = own_image ? last - from : at;
-  const int old = std::abs(strip.on[joint].line), fresh = new_strand(strip);
-  // What is left on either side; of a line between a strand and its image that is the same on both, and another in the middle.
-  const auto mark = [&](int begin, int end, int number, bool whole) {
-    const bool alone = end - begin < 1 && whole;
-    for (int k = std::max(begin, 0); k <= end; ++k)
-      for (const bool second : {false, true}) {
-        if (second && own_image) continue;
-        chain::Seat& seat = strip.on[second ? line.second[k] : line.first[k]];
-        seat.line = alone ? 0 : second ? -number : number;
-        if (k == begin || k == end) seat.part = 0.0;
-      }
-  };
-  mark(0, from - 1, old, !own_image || from == 1);
-  mark(to + 1, last, own_image ? old : fresh, !own_image || from == 1);
-  if (own_image) mark(from + 1, to - 1, fresh, true);
-  take_out(joint, strip);
-  measure_parts(strip);
-  return strip.successor();
-}
-
-std::vector<Successor> line_opens_about(int middle, int other, const chain::Profile& profile,
-                                        const Topology& topology, const Strip& strip) {
-  const Strands strands(topology);
-  const StrandLine& line = strands.lines()[strands.line_of(middle)];
-  std::vector<Successor> out;
-  for (const double clear : {0.015, 0.01, 0.02}) {
-    const double apart = std::abs(strip.s[other] - strip.s[middle]) + clear * profile.unit_length;
-    const auto is_clear = [&](int j) { return strip.s[j] < strip.s[middle] - apart; };
-    const auto inner = std::find_if_not(line.first.begin(), line.first.end(), is_clear);
-    if (inner - line.first.begin() < 2) continue;
-    const int low = *(inner - 1), high = strands.partner(low);
-    Strip open = strip;
-    for (const int joint : {low, high}) open.on[joint].part = 0.0;
-    for (const int joint : line.first)
-      if (strip.s[joint] >= strip.s[high]) open.on[joint].line = -open.on[joint].line;
-    out.push_back(with_touches(skeleton_of(open).strip.successor(), profile, topology));
-    for (std::size_t j = 0; j < out.back().s.size(); ++j)
-      if (out.back().s[j] == strip.s[low] || out.back().s[j] == strip.s[high])
-        out.back().held.push_back(static_cast<int>(j));
-  }
-  return out;
-}
-
 std::optional<Successor> line_with_fewer_touches(const chain::Profile& profile, const Topology& topology,
                                                  int link, const Strip& strip) {
   const Strands strands(topology);

@@ -67,6 +67,11 @@ void measure_parts(Strip& strip);
 /// A touch of a line between free strands pulls: the line opens there, and ends at the touches beside. nullopt: it is in none.
 std::optional<Successor> line_opens(int joint, const chain::Topology& topology, Strip strip);
 
+/// The line has opened where touches next to each other pull: over √5 of the width of that suction, or beside an end of the line, which
+/// stays a touch, over 5/3 of it (contact_events.hpp, "A gap that has just opened").
+std::vector<Successor> line_opens_by_suction(int joint, const chain::Profile& profile,
+                                             const chain::Topology& topology, const Strip& strip);
+
 /// A line between a strand and its image, with its touches laid anew, open about the middle, which an edge or another touch has come
 /// near. @param other  that joint. Nothing where little is left of the line
 std::vector<Successor> line_opens_about(int middle, int other, const chain::Profile& profile,

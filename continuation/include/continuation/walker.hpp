@@ -107,6 +107,7 @@ class Walker {
   /// What a function may be at the point of its event, by rounding.
   double rounded_zero() const { return 1e4 * options_.event_zero; }
   void forget_rounded_signs(bool negative);
+  bool leads_back(Problem& next, const Iterate& it, const Tangent& way) const;
   bool enter(const Transition& transition, int direction, const std::string& passed, std::string& failure);
   bool valid_direction(const std::shared_ptr<Problem>& problem, const Vector& x, const Vector& p,
                        const Tangent& tangent, const std::string& passed);
