@@ -257,6 +257,10 @@ bool Walker::leads_back(Problem& next, const Iterate& it, const Tangent& way) co
   const Sample* there = ahead.at(length, false);
   const Sample* far = there ? behind.at(length, false) : nullptr;
   if (!far) return false;
+  // As far as the branch has been: right before the event it may have turned, and go on as it came.
+  const double rise = ahead.parameter(*there) - parameter(state_.p),
+               back = behind.parameter(*far) - parameter(state_.p);
+  if (rise * back <= 0.0 || std::abs(rise) > std::abs(back)) return false;
   const Sample* same = behind.at_parameter(ahead.parameter(*there), behind.base(), *far, false);
   if (!same) return false;
   Problem &now = *ahead.problem(), &before = *behind.problem();
