@@ -65,7 +65,10 @@ void Walker::adapt() {
     settle(segment, *sample);
     state_.last_ds = last_ds;  // the same point: the rates of events still run from the one before
     if (described_anew) {
-      for (auto& [name, sign] : state_.signs) sign = 1;
+      // What only the new description makes negative is still to be passed, but where that has been tried down to the least steps.
+      constexpr double many = 100.0;
+      if (last_ds > many * options_.step_min)
+        for (auto& [name, sign] : state_.signs) sign = 1;
       state_.previous_events.clear();
     } else {
       state_.signs = std::move(signs);  // what only the new mesh makes negative is still to be passed
