@@ -21,8 +21,7 @@ BranchSetup set_up_branch(const BranchRequest& request);
 
 struct FirstState {
   equilibrium::Started state;
-  bool inside =
-      false;  ///< the branch, that begins at the scene's parameter, is found at another one of its own
+  bool inside = false;  ///< of the branch, whose beginning, at the scene's parameter, is not found yet
 };
 
 /// The first equilibrium. @throws equilibrium::NoEquilibrium

@@ -288,14 +288,6 @@ double centre_of_forces(const Profile& profile, int first, int second) {
   return one + two > 0.0 ? two / (one + two) : 0.5;
 }
 
-/// The joints at these places are known by guess only; one of those that share a place.
-void hold_at(const std::vector<double>& places, Successor& out) {
-  for (int j = 0; j < static_cast<int>(out.s.size()); ++j)
-    if (std::find(places.begin(), places.end(), out.s[j]) != places.end() &&
-        (out.held.empty() || out.s[out.held.back()] != out.s[j]))
-      out.held.push_back(j);
-}
-
 /// Two touches that a touch between them stands for (touch_dip.hpp): where their forces together are.
 std::vector<Successor> become_one(int link, const Profile& profile, const Topology& topology,
                                   const Strip& strip) {

@@ -19,8 +19,7 @@ bool carries_couple(const Topology& topology) {
 
 std::string couple_not_carried() {
   return "cylinder.friction_couple: is built for touches and lines of the cylinder, not for rods that lie on "
-         "cylinder and "
-         "plate at once; false leaves the moment of the friction out";
+         "cylinder and plate at once; false leaves the moment of the friction out";
 }
 
 std::string rim_not_thickened() {

@@ -12,6 +12,13 @@ using chain::StrandLine;
 using chain::Strands;
 using chain::Topology;
 
+void hold_at(const std::vector<double>& places, Successor& out) {
+  for (int j = 0; j < static_cast<int>(out.s.size()); ++j)
+    if (std::find(places.begin(), places.end(), out.s[j]) != places.end() &&
+        (out.held.empty() || out.s[out.held.back()] != out.s[j]))
+      out.held.push_back(j);
+}
+
 std::optional<Successor> line_opens(int joint, const Topology& topology, Strip strip) {
   const Strands strands(topology);
   const int which = strands.line_of(joint);
@@ -86,15 +93,6 @@ Edges edges_of(const Suction& pull, const StrandLine& line, const Strip& strip, 
   return out;
 }
 
-/// Joints at the places that these touches of a line have, of several at one place the first, are known by guess only.
-void hold_edges(const Edges& edges, const StrandLine& line, const Strip& strip, Successor& out) {
-  for (const int touch : {edges.low, edges.high})
-    for (const int joint : {line.first[touch], line.second[touch]}) {
-      const auto at = std::find(out.s.begin(), out.s.end(), strip.s[joint]);
-      if (at != out.s.end()) out.held.push_back(static_cast<int>(at - out.s.begin()));
-    }
-}
-
 }  // namespace
 
 std::vector<Successor> line_opens_by_suction(int joint, const chain::Profile& profile,
@@ -115,7 +113,9 @@ std::vector<Successor> line_opens_by_suction(int joint, const chain::Profile& pr
     if (edges.high - edges.low < 2) continue;
     const Strip open = open_between(line, edges.low, edges.high, strip);
     out.push_back(with_touches(skeleton_of(open).strip.successor(), profile, topology));
-    hold_edges(edges, line, strip, out.back());
+    hold_at({strip.s[line.first[edges.low]], strip.s[line.second[edges.low]], strip.s[line.first[edges.high]],
+             strip.s[line.second[edges.high]]},
+            out.back());
   }
   return out;
 }
@@ -136,9 +136,7 @@ std::vector<Successor> line_opens_about(int middle, int other, const chain::Prof
     for (const int joint : line.first)
       if (strip.s[joint] >= strip.s[high]) open.on[joint].line = -open.on[joint].line;
     out.push_back(with_touches(skeleton_of(open).strip.successor(), profile, topology));
-    for (std::size_t j = 0; j < out.back().s.size(); ++j)
-      if (out.back().s[j] == strip.s[low] || out.back().s[j] == strip.s[high])
-        out.back().held.push_back(static_cast<int>(j));
+    hold_at({strip.s[low], strip.s[high]}, out.back());
   }
   return out;
 }

@@ -73,14 +73,22 @@ std::vector<double> fine_while_bent(std::vector<double> nodes, double growth, bo
   return out;
 }
 
+/// Have layers in which friction's moment presses grown out of their elements?
+bool layers_outgrown(const chain::Chain& chain, const std::vector<chain::ArcMesh>& meshes, const Vector& x,
+                     const Loads& at) {
+  for (int i = 0; i < chain.link_count(); ++i)
+    if (layers_outgrown(meshes[i].nodes, layers_of(chain, x, at, i), meshes[i].stages)) return true;
+  return false;
+}
+
 /// Has a contact grown, by a fifth, out of the elements it was given?
 bool outgrown(const chain::Chain& chain, const std::vector<chain::ArcMesh>& meshes, const Vector& x,
               const Loads& at, double bending_stiffness) {
+  if (layers_outgrown(chain, meshes, x, at)) return true;
   for (int i = 0; i < chain.link_count(); ++i) {
     if (chain.link(i).arc->elements() == 0) continue;
     const double growth = growth_over(chain.place(x, at, i), bending_stiffness);
     const std::vector<double>& nodes = meshes[i].nodes;
-    if (layers_outgrown(nodes, layers_of(chain, x, at, i), meshes[i].stages)) return true;
     for (std::size_t k = 1; k < nodes.size(); ++k) {
       const double size = growth * (nodes[k] - nodes[k - 1]);
       if (size > 1.2 * longest && size < whole) return true;
@@ -219,18 +227,18 @@ double RodProblem::nodal_goal() const {
 
 double RodProblem::bearable() const { return 2.0 * nodal_goal(); }
 
+Vector RodProblem::carried_to(std::vector<chain::ArcMesh> meshes, const Vector& x, const Vector& p) {
+  meshes_ = std::move(meshes);
+  const std::unique_ptr<chain::Chain> old = std::move(chain_);
+  rebuild();
+  Vector fresh = chain::transfer_state(*old, *chain_, x, loads(p));
+  if (polish(fresh, p) < 0) throw NoEquilibrium("Newton failed after the mesh was adapted");
+  return fresh;
+}
+
 Vector RodProblem::refine(Vector x, const Vector& p, int rounds) {
-  bool outgrown_layers = false;
-  for (int i = 0; i < chain_->link_count(); ++i)
-    outgrown_layers |=
-        layers_outgrown(meshes_[i].nodes, layers_of(*chain_, x, loads(p), i), meshes_[i].stages);
-  if (outgrown_layers) {  // first: they would have all of the mesh finer
-    meshes_ = with_layers(*chain_, meshes_, x, loads(p));
-    const std::unique_ptr<chain::Chain> old = std::move(chain_);
-    rebuild();
-    x = chain::transfer_state(*old, *chain_, x, loads(p));
-    if (polish(x, p) < 0) throw NoEquilibrium("Newton failed after the mesh was adapted");
-  }
+  if (layers_outgrown(*chain_, meshes_, x, loads(p)))  // first: they would have all of the mesh finer
+    x = carried_to(with_layers(*chain_, meshes_, x, loads(p)), x, p);
   bool refined = false;  // with less error asked for, not only distributed evenly
   for (int k = 0; k < rounds; ++k) {
     settle(x, p);
@@ -241,13 +249,7 @@ Vector RodProblem::refine(Vector x, const Vector& p, int rounds) {
     const double too_large = excess(x, p);
     refined = too_large > 1.0;
     if (too_large <= 1.0 && k > 0) return x;  // the first mesh is a guess and is always equidistributed
-    const Loads at = loads(p);
-    const double order = order_of(meshes_);
-    meshes_ = new_meshes(x, at, std::pow(10.0 * too_large, 1.0 / order));
-    std::unique_ptr<chain::Chain> old = std::move(chain_);
-    rebuild();
-    x = chain::transfer_state(*old, *chain_, x, at);
-    if (polish(x, p) < 0) throw NoEquilibrium("Newton failed after the mesh was adapted");
+    x = carried_to(new_meshes(x, loads(p), std::pow(10.0 * too_large, 1.0 / order_of(meshes_))), x, p);
   }
   settle(x, p);
   error_estimate(x, p);

@@ -120,22 +120,24 @@ RodProblem::RodProblem(scene::Scene scene, bool spatial, Topology topology,
   rebuild();
 }
 
+bool RodProblem::varies(const char* key) const {
+  return std::find(keys_.begin(), keys_.end(), key) != keys_.end();
+}
+
 bool RodProblem::coupled() const {
-  const bool thickens = std::find(keys_.begin(), keys_.end(), "rod.radius") != keys_.end();
-  return base_.arm != 0.0 || (thickens && scene_.friction_has_couple());
+  return base_.arm != 0.0 || (varies("rod.radius") && scene_.friction_has_couple());
 }
 
 const char* RodProblem::missing_on(const Topology& topology) const {
   const auto asked = [&](double Loads::*field) {
     return base_.*field != 0.0 || std::find(fields_.begin(), fields_.end(), field) != fields_.end();
   };
-  const bool thickens = std::find(keys_.begin(), keys_.end(), "rod.radius") != keys_.end();
   if (coupled() && !(spatial_ && carries_couple(topology))) return "cylinder.friction_couple";
   for (int j = 0; j < static_cast<int>(topology.on.size()); ++j)
     if (obstacle::plate_at(scene_, topology.seat(j).flat) == 2 ||
         obstacle::plate_at(scene_, topology.seat(j).stop) == 2)
       return "plate.2.height";
-  if (thickens && touches_rim(rod_, topology)) return "plate.outer_radius";
+  if (varies("rod.radius") && touches_rim(rod_, topology)) return "plate.outer_radius";
   if (rod_.travel != chain::Travel::none && asked(&Loads::compliance) &&
       !carries_stretch(topology, rod_.travel))
     return "rod.extensible";
@@ -145,9 +147,6 @@ const char* RodProblem::missing_on(const Topology& topology) const {
 void RodProblem::rebuild() {
   rod_ = rod_of(scene_, spatial_);
   if (spatial_ && scene_.second_plate) rod_.obstacles = obstacle::obstacles_of(scene_, &second_plate_);
-  const auto varies = [&](const char* key) {
-    return std::find(keys_.begin(), keys_.end(), key) != keys_.end();
-  };
   if (varies("load.angle")) rod_.pull_angle = NAN;
   if (varies("rod.weight_x")) rod_.weighs[0] = true;
   if (varies("rod.weight_y")) rod_.weighs[1] = true;
@@ -346,6 +345,7 @@ double RodProblem::target(const chain::Chain& chain, const Vector& x, const Load
 std::shared_ptr<continuation::Problem> RodProblem::clone() const {
   auto copy = std::make_shared<RodProblem>(scene_, spatial_, topology_, meshes_, keys_);
   copy->remember(memory());
+  // What is known of the last state, so that it is not found again.
   copy->estimated_x_ = estimated_x_, copy->estimated_p_ = estimated_p_;
   copy->nodal_error_ = nodal_error_;
   copy->counts_ = counts_;

@@ -114,10 +114,6 @@ Started dragged_first(const scene::Scene& scene, const std::vector<std::string>&
   return states.front();
 }
 
-}  // namespace
-
-namespace {
-
 std::string pull_on_knot(const scene::Scene& scene) {
   return scene.has_cylinder ? "load.tension" : "load.thrust";
 }

@@ -158,10 +158,19 @@ std::optional<ContactEvent> laid_between(const Profile& profile, const chain::St
   return event;
 }
 
+namespace {
+
+/// The one of a line's two strands that a joint is a touch of.
+const std::vector<int>& strand_of(const chain::StrandLine& line, int joint) {
+  const bool first = std::find(line.first.begin(), line.first.end(), joint) != line.first.end();
+  return first ? line.first : line.second;
+}
+
+}  // namespace
+
 Suction suction_about(const Profile& profile, const chain::Strands& strands, int joint) {
   const chain::StrandLine& line = strands.lines()[strands.line_of(joint)];
-  const bool of_first = std::find(line.first.begin(), line.first.end(), joint) != line.first.end();
-  const std::vector<int>& strand = of_first ? line.first : line.second;
+  const std::vector<int>& strand = strand_of(line, joint);
   std::map<int, double> force;
   for (const Contact& c : profile.contacts)
     if (c.coupling >= 0) force[c.joint] = c.force;
@@ -188,8 +197,7 @@ double carried_pull(const Profile& profile, const chain::Strands& strands, const
   if (!strands.inside_line(joint)) return 0.0;
   const double h = span_of(profile, strands, joint), stiffness = profile.material.bending_stiffness;
   const chain::StrandLine& line = strands.lines()[strands.line_of(joint)];
-  const bool of_first = std::find(line.first.begin(), line.first.end(), joint) != line.first.end();
-  const std::vector<int>& strand = of_first ? line.first : line.second;
+  const std::vector<int>& strand = strand_of(line, joint);
   const auto to = [&](int end) { return std::abs(profile.pieces[joint].s(0) - profile.pieces[end].s(0)); };
   const double away = std::min(to(strand.front()), to(strand.back())) / profile.unit_length,
                part = std::clamp((away - beside_end) / beside_end, 0.0, 1.0);

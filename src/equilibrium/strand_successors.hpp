@@ -64,6 +64,9 @@ std::optional<Successor> line_filled(const ContactEvent& event, const chain::Pro
 /// Measures where touches inside lines between strands are, as parts of these, after their ends have changed.
 void measure_parts(Strip& strip);
 
+/// The joints at these places are known by guess only; one of those that share a place.
+void hold_at(const std::vector<double>& places, Successor& out);
+
 /// A touch of a line between free strands pulls: the line opens there, and ends at the touches beside. nullopt: it is in none.
 std::optional<Successor> line_opens(int joint, const chain::Topology& topology, Strip strip);
 

@@ -155,6 +155,8 @@ class RodProblem final : public continuation::Problem {
   double target(const chain::Chain& chain, const Vector& x, const contact::Loads& loads) const;
 
  private:
+  /// Is this key one of those that the parameters are?
+  bool varies(const char* key) const;
   /// What follows an event, and whether its state was found; else it is a guess.
   struct After {
     std::optional<continuation::Transition> transition = {};
@@ -186,12 +188,13 @@ class RodProblem final : public continuation::Problem {
   /// After a refinement that asked for less than `error_before`.
   void note_rounding(double error_before);
   std::vector<chain::ArcMesh> new_meshes(const Vector& x, const contact::Loads& loads, double growth) const;
-  /// The state on `meshes`, which replace the present ones; nullopt, and nothing is changed, where Newton fails or,
-  /// with `within`, the errors there are too large.
   std::optional<Vector> remeshed_where_needed(const Vector& x, const Vector& p);
   /// The state with the touches inside its lines between strands laid anew, where they are too few or far too many; nullopt, and nothing
   /// is changed, where they are not, or Newton fails.
   std::optional<Vector> laid_where_needed(const Vector& x, const Vector& p);
+  /// The state on `meshes`, which replace the present ones. @throws NoEquilibrium if Newton fails there
+  Vector carried_to(std::vector<chain::ArcMesh> meshes, const Vector& x, const Vector& p);
+  /// The same; nullopt, and nothing is changed, where Newton fails or, with `within`, the errors there are too large.
   std::optional<Vector> moved_to(std::vector<chain::ArcMesh> meshes, const Vector& x, const Vector& p,
                                  bool within);
 
