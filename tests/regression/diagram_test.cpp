@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "support/certified_run.hpp"
 #include "support/csv.hpp"
 #include "support/run_program.hpp"
 
@@ -15,16 +16,12 @@ namespace {
 /// Runs a command, then `verify`; the run is in `folder`/run.
 void draw(const TemporaryFolder& folder, const std::string& name, const std::vector<std::string>& settings,
           const std::string& command = "diagram") {
-  std::vector<std::string> words = {command, shipped_scene(name), "--out",
-                                    "run",   "--quiet",           "--no-eigenvalues"};
+  std::vector<std::string> words = {command, shipped_scene(name)};
   for (const std::string& setting : settings) {
     words.push_back("--set");
     words.push_back(setting);
   }
-  const Outcome outcome = run_program(words, folder.path());
-  BOOST_TEST(outcome.status == 0, outcome.err);  // 2: a branch was lost
-  const Outcome certificate = run_program({"verify", "run"}, folder.path());
-  BOOST_TEST(certificate.status == 0, certificate.out);
+  certified_run(words, folder);
 }
 
 Table rows_of(const TemporaryFolder& folder) { return read_csv(folder.path() / "run" / "branches.csv"); }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "support/certified_run.hpp"
 #include "support/csv.hpp"
 #include "support/fit_of.hpp"
 #include "support/run_program.hpp"
@@ -60,14 +61,8 @@ BOOST_AUTO_TEST_CASE(clove_hitch_agrees_with_the_discrete_rod) {
 BOOST_AUTO_TEST_CASE(clove_hitch_loosens_through_every_change_of_contact) {
   for (const double radius : {0.5, 0.285714, 0.166667}) {
     const TemporaryFolder folder;
-    std::vector<std::string> command =
-        tied("continue", radius, {"continuation.from=1", "continuation.to=0.1"});
-    command.insert(command.end(), {"--out", "run", "--quiet", "--no-eigenvalues"});
-    const Outcome outcome = run_program(command, folder.path());
-    BOOST_TEST(outcome.status == 0, outcome.err);
-    const Outcome certificate = run_program({"verify", "run"}, folder.path());
-    BOOST_TEST(certificate.status == 0, certificate.out);  // that of the virial among them
-    const Table table = read_csv(folder.path() / "run" / "branches.csv");
+    const Table table = certified_run(  // by the virial among others
+        tied("continue", radius, {"continuation.from=1", "continuation.to=0.1"}), folder);
     BOOST_TEST(std::stod(table.rows.back().at("T")) == 0.1);
     for (const auto& row : table.rows) BOOST_TEST(row.at("index") == "0");
   }
@@ -77,14 +72,8 @@ BOOST_AUTO_TEST_CASE(a_branch_begins_where_it_is_asked_to) {
   // Relaxed at T = 2, inside the branch, the hitch is followed to where the branch begins; what it met on the way is reported
   // from there, as what follows is.
   const TemporaryFolder folder;
-  std::vector<std::string> command =
-      tied("continue", 0.285714, {"continuation.from=3", "continuation.to=1.6"});
-  command.insert(command.end(), {"--out", "run", "--quiet", "--no-eigenvalues"});
-  const Outcome outcome = run_program(command, folder.path());
-  BOOST_TEST(outcome.status == 0, outcome.err);
-  const Outcome certificate = run_program({"verify", "run"}, folder.path());
-  BOOST_TEST(certificate.status == 0, certificate.out);
-  const Table table = read_csv(folder.path() / "run" / "branches.csv");
+  const Table table =
+      certified_run(tied("continue", 0.285714, {"continuation.from=3", "continuation.to=1.6"}), folder);
   BOOST_TEST(table.rows.front().at("type") == "start");
   BOOST_TEST(table.rows.front().at("T") == "3");
   BOOST_TEST(table.rows.back().at("T") == "1.6");
@@ -347,13 +336,8 @@ BOOST_AUTO_TEST_CASE(a_round_turn_is_the_coil) {
 
 BOOST_AUTO_TEST_CASE(half_knot_is_tightened) {
   const TemporaryFolder folder;
-  const Outcome outcome = run_program({"continue", shipped_scene("half-knot"), "--set", "continuation.to=1",
-                                       "--out", "run", "--quiet", "--no-eigenvalues"},
-                                      folder.path());
-  BOOST_TEST(outcome.status == 0, outcome.err);
-  const Outcome certificate = run_program({"verify", "run"}, folder.path());
-  BOOST_TEST(certificate.status == 0, certificate.out);
-  const Table table = read_csv(folder.path() / "run" / "branches.csv");
+  const Table table =
+      certified_run({"continue", shipped_scene("half-knot"), "--set", "continuation.to=1"}, folder);
   for (const auto& row : table.rows) BOOST_TEST(contains(row.at("topology"), "cross"));  // it stays tied
   BOOST_TEST(std::stod(table.rows.back().at("T")) == 1.0);
 }

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "support/certified_run.hpp"
 #include "support/csv.hpp"
 #include "support/run_program.hpp"
 
@@ -63,13 +64,8 @@ BOOST_AUTO_TEST_CASE(a_dragged_hitch_is_followed_through_changes_of_contact) {
   // between these tensions, upward on the way to the first state, then downward. Every point is integrated again, with the
   // balance along the axis among the checks.
   const TemporaryFolder folder;
-  std::vector<std::string> command = hitch("continue", {"continuation.from=0.49", "continuation.to=0.3"});
-  command.insert(command.end(), {"--out", "run", "--quiet", "--no-eigenvalues"});
-  const Outcome outcome = run_program(command, folder.path());
-  BOOST_TEST(outcome.status == 0, outcome.err);
-  const Outcome certificate = run_program({"verify", "run"}, folder.path());
-  BOOST_TEST(certificate.status == 0, certificate.out);
-  const Table table = read_csv(folder.path() / "run" / "branches.csv");
+  const Table table =
+      certified_run(hitch("continue", {"continuation.from=0.49", "continuation.to=0.3"}), folder);
   BOOST_TEST(table.rows.back().at("T") == "0.3");
   for (const auto& row : table.rows)
     BOOST_TEST(std::abs(std::stod(row.at("plate_force")) / std::stod(row.at("F0")) - 1.0) < 1e-10);

@@ -1,10 +1,9 @@
 #include "couple_line_shooting.hpp"
 
-#include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <boost/numeric/odeint.hpp>
-#include <boost/test/unit_test.hpp>
 #include <cmath>
+
+#include "shooting.hpp"
 
 namespace windlass::test {
 
@@ -13,8 +12,8 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-struct OnLine {
-  Vector3d r, t, d1, m, n;
+struct OnLine : OnCylinder {
+  Vector3d m, n;
   double pressed = 0.0;  ///< ∫ p ds
 };
 
@@ -65,12 +64,9 @@ struct LineOracle {
   }
 
   OnLine edge(const VectorXd& x) const {
-    const Vector3d out(std::sin(x(0)), -std::cos(x(0)), 0.0), round(std::cos(x(0)), std::sin(x(0)), 0.0);
-    OnLine at;
-    at.r = out + x(1) * Vector3d::UnitZ();
-    at.t = std::cos(x(2)) * round + std::sin(x(2)) * Vector3d::UnitZ();
+    const Vector3d out(std::sin(x(0)), -std::cos(x(0)), 0.0);
+    OnLine at{on_cylinder(x.head<4>()), {}, {}};
     const Vector3d across = out.cross(at.t);
-    at.d1 = std::cos(x(3)) * out + std::sin(x(3)) * across;
     at.m = x(4) * out + x(5) * at.t + scene.rod.bending_stiffness * std::pow(std::cos(x(2)), 2) * across;
     at.n = x.segment<3>(6);
     return at;
@@ -112,13 +108,9 @@ VectorXd start(const equilibrium::Solution& guess) {
   VectorXd x(LineOracle::size);
   const auto& line = guess.arcs[1];
   const Eigen::Index last = line.s.size() - 1;
-  const Eigen::Vector4d q = line.q.col(last);
-  const Eigen::Matrix3d d = Eigen::Quaterniond(q(0), q(1), q(2), q(3)).toRotationMatrix();
-  const Vector3d r = line.r.col(last), out = Vector3d(r.x(), r.y(), 0.0).normalized(), t = d.col(2);
-  x(0) = std::atan2(r.x(), -r.y());
-  x(1) = r.z();
-  x(2) = std::atan2(t.z(), Vector3d::UnitZ().cross(out).dot(t));
-  x(3) = std::atan2(d.col(0).dot(out.cross(t)), d.col(0).dot(out));
+  const Vector3d r = line.r.col(last), out = Vector3d(r.x(), r.y(), 0.0).normalized();
+  x.head<4>() = coordinates_on_cylinder(r, line.q.col(last));
+  const Vector3d t = on_cylinder(x.head<4>()).t;
   x(4) = line.m.col(last).dot(out);
   x(5) = line.m.col(last).dot(t);
   x.segment<3>(6) = guess.arcs[2].n.col(0);
@@ -132,27 +124,11 @@ VectorXd start(const equilibrium::Solution& guess) {
 
 Dragged shot_from_line(const equilibrium::Solution& guess, const scene::Scene& scene) {
   const LineOracle oracle{scene};
-  VectorXd x = start(guess);
-  constexpr double off = 1e-5;  // so that it has to find the state itself
-  x += off * VectorXd::LinSpaced(x.size(), -1.0, 1.0);
-  for (int k = 0; k < 20; ++k) {
-    const VectorXd f = oracle.residual(x);
-    Eigen::MatrixXd j(f.size(), x.size());
-    for (Eigen::Index i = 0; i < x.size(); ++i) {
-      const double step = 1e-6;
-      VectorXd up = x, down = x;
-      up(i) += step, down(i) -= step;
-      j.col(i) = (oracle.residual(up) - oracle.residual(down)) / (2.0 * step);
-    }
-    const VectorXd dx = -j.fullPivLu().solve(f);
-    x += dx;
-    if (dx.lpNorm<Eigen::Infinity>() > 1e-10) continue;
-    Dragged found;
-    oracle.residual(x, &found);
-    return found;
-  }
-  BOOST_FAIL("the oracle did not converge");
-  return {};
+  const auto residual = [&](const VectorXd& x) { return oracle.residual(x); };
+  const VectorXd x = newton_shot(residual, start(guess), 1e-5, 1e-10);
+  Dragged found;
+  oracle.residual(x, &found);
+  return found;
 }
 
 }  // namespace windlass::test

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "couple_line_shooting.hpp"
+#include "dragged_scene.hpp"
 #include "observed_order.hpp"
 #include "windlass/equilibrium/equilibria.hpp"
 #include "windlass/equilibrium/record.hpp"
@@ -15,19 +16,8 @@ using namespace windlass;
 
 /// A rod once round a cylinder that slides, with a line on it, held back by a plate that its right tail touches.
 scene::Scene lying(double radius, scene::Travel travel) {
-  scene::Scene scene;
-  scene.has_cylinder = true;
-  scene.load.tension = 0.45;
-  scene.load.angle = 2.0 * M_PI;
-  scene.rod.length = 2.0 * M_PI + 16.0;
-  scene.rod_radius = radius;
+  scene::Scene scene = test::clamped_on_plate(0.45, 0.2, radius, travel);
   scene.self_contact = false;
-  scene.friction = 0.2;
-  scene.motion.sliding = scene::Sliding::up;
-  scene.plate.emplace();
-  scene.ends.kind = scene::EndKind::clamped;
-  scene.ends.travel = travel;
-  scene.model.kind = scene::ModelKind::kirchhoff;
   scene.model.tolerance = 1e-11;
   return scene;
 }

@@ -1,9 +1,9 @@
 #include "couple_shooting.hpp"
 
-#include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <boost/numeric/odeint.hpp>
 #include <cmath>
+
+#include "shooting.hpp"
 
 namespace windlass::test {
 
@@ -13,8 +13,8 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using equilibrium::JointKind;
 
-struct Section {
-  Vector3d r, t, d1, m, n;
+struct Section : OnCylinder {
+  Vector3d m, n;
 };
 
 struct Touch {
@@ -81,11 +81,7 @@ struct Oracle {
   double pull_difference(const VectorXd& x) const { return x(10) - travel(x); }
 
   Section first(const VectorXd& x) const {
-    const Vector3d out(std::sin(x(0)), -std::cos(x(0)), 0.0), round(std::cos(x(0)), std::sin(x(0)), 0.0);
-    Section at;
-    at.r = out + x(1) * Vector3d::UnitZ();
-    at.t = std::cos(x(2)) * round + std::sin(x(2)) * Vector3d::UnitZ();
-    at.d1 = std::cos(x(3)) * out + std::sin(x(3)) * out.cross(at.t);
+    Section at{on_cylinder(x.head<4>()), {}, {}};
     at.m = x.segment<3>(4), at.n = x.segment<3>(7);
     return at;
   }
@@ -142,13 +138,7 @@ VectorXd start(const equilibrium::Solution& guess, Oracle& oracle) {
     x.segment<2>(9 + 2 * static_cast<Eigen::Index>(k)) << joint.s, joint.force;
   }
   const auto& arc = guess.arcs[1];
-  const Eigen::Vector4d q = arc.q.col(0);
-  const Eigen::Matrix3d d = Eigen::Quaterniond(q(0), q(1), q(2), q(3)).toRotationMatrix();
-  const Vector3d r = arc.r.col(0), out = Vector3d(r.x(), r.y(), 0.0).normalized(), t = d.col(2);
-  x(0) = std::atan2(r.x(), -r.y());
-  x(1) = r.z();
-  x(2) = std::atan2(t.z(), Vector3d::UnitZ().cross(out).dot(t));
-  x(3) = std::atan2(d.col(0).dot(out.cross(t)), d.col(0).dot(out));
+  x.head<4>() = coordinates_on_cylinder(arc.r.col(0), arc.q.col(0));
   x.segment<3>(4) = arc.m.col(0);
   x.segment<3>(7) = arc.n.col(0);
   x(10) = oracle.scene.ends.travel == scene::Travel::free ? guess.travel_rate : guess.pull_difference;
@@ -159,27 +149,11 @@ VectorXd start(const equilibrium::Solution& guess, Oracle& oracle) {
 
 Dragged shot_from_touches(const equilibrium::Solution& guess, const scene::Scene& scene) {
   Oracle oracle{scene, {}};
-  VectorXd x = start(guess, oracle);
-  constexpr double off = 1e-4;  // so that it has to find the state itself
-  x += off * VectorXd::LinSpaced(x.size(), -1.0, 1.0);
-  for (int k = 0; k < 20; ++k) {
-    const VectorXd f = oracle.residual(x);
-    Eigen::MatrixXd j(f.size(), x.size());
-    for (Eigen::Index i = 0; i < x.size(); ++i) {
-      const double step = 1e-6;
-      VectorXd up = x, down = x;
-      up(i) += step, down(i) -= step;
-      j.col(i) = (oracle.residual(up) - oracle.residual(down)) / (2.0 * step);
-    }
-    const VectorXd dx = -j.fullPivLu().solve(f);
-    x += dx;
-    if (dx.lpNorm<Eigen::Infinity>() > 1e-11) continue;
-    Dragged found;
-    oracle.residual(x, &found);
-    return found;
-  }
-  BOOST_FAIL("the oracle did not converge");
-  return {};
+  const auto residual = [&](const VectorXd& x) { return oracle.residual(x); };
+  const VectorXd x = newton_shot(residual, start(guess, oracle), 1e-4, 1e-11);
+  Dragged found;
+  oracle.residual(x, &found);
+  return found;
 }
 
 }  // namespace windlass::test

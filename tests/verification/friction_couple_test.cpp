@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "couple_shooting.hpp"
+#include "dragged_scene.hpp"
 #include "observed_order.hpp"
 #include "windlass/chain/guess.hpp"
 #include "windlass/equilibrium/equilibria.hpp"
@@ -16,18 +17,7 @@ using namespace windlass;
 
 /// A rod once round a cylinder that slides, on a plate, under a pull that leaves it on isolated touches.
 scene::Scene dragged(double radius, scene::Travel travel) {
-  scene::Scene scene;
-  scene.has_cylinder = true;
-  scene.load.tension = 0.3;
-  scene.load.angle = 2.0 * M_PI;
-  scene.rod.length = 2.0 * M_PI + 16.0;
-  scene.rod_radius = radius;
-  scene.friction = 0.32;
-  scene.motion.sliding = scene::Sliding::up;
-  scene.plate.emplace();
-  scene.ends.kind = scene::EndKind::clamped;
-  scene.ends.travel = travel;
-  scene.model.kind = scene::ModelKind::kirchhoff;
+  scene::Scene scene = test::clamped_on_plate(0.3, 0.32, radius, travel);
   scene.model.tolerance = 1e-12;
   return scene;
 }

@@ -4,6 +4,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "gathered.hpp"
+
 namespace {
 
 using namespace windlass;
@@ -34,20 +36,8 @@ struct Fixture {
     const double* ends = at.data() + arc.interior_tangent();
     return {ends, ends + 2, at.data(), ends + 4, ends[6], 0.4, ends[7]};
   }
-  VectorXd gradient(const VectorXd& at) const {
-    VectorXd out(z.size());
-    bvp::EndsVector ends;
-    arc.gradient(point(at), out.data(), ends);
-    out.tail(arc.ends()) = ends;
-    return out;
-  }
-  MatrixXd matrix() const {
-    MatrixXd dense = MatrixXd::Zero(z.size(), z.size());
-    std::vector<Eigen::Triplet<double>> entries;
-    arc.hessian(point(z), entries);
-    for (const auto& e : entries) dense(e.row(), e.col()) += e.value();
-    return dense;
-  }
+  VectorXd gradient(const VectorXd& at) const { return test::gathered_gradient(arc, point(at), z.size()); }
+  MatrixXd matrix() const { return test::gathered_hessian(arc, point(z), z.size()); }
 };
 
 }  // namespace
