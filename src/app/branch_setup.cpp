@@ -29,7 +29,6 @@ bool needs_space(const scene::Scene& scene) {
       break;
   }
   return !scene.has_cylinder || scene.ends.guided() || scene.load.angle > M_PI ||
-         scene.friction_arm() > 0.0 ||
          (scene.continuation && scene.continuation->parameter == "load.angle" &&
           scene.continuation->to > M_PI);
 }

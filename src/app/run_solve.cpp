@@ -206,8 +206,11 @@ int run_solve(const SolveRequest& request) {
   const equilibrium::Equilibria found = [&] {
     const Heartbeat heartbeat(scene.name + ": searching the equilibrium", request.common.quiet);
     equilibrium::Equilibria all = equilibrium::equilibria(request.scene);
+    if (all.answer.dragged) {
+      add_indices(all.states, scene);
+      equilibrium::answer_with_stable(all, scene);
+    }
     add_stability(all.answer, scene);
-    if (all.answer.dragged && all.answer.stability) add_indices(all.states, scene);
     return all;
   }();
   const Solution& solution = found.answer;

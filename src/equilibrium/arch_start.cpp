@@ -2,7 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <continuation/branch_switch.hpp>
+
 #include "dragged_start.hpp"
+#include "windlass/equilibrium/search.hpp"
 
 namespace windlass::equilibrium {
 
@@ -26,6 +29,13 @@ std::vector<Pressing> contacts(double edge, double end, bool middle) {
   return out;
 }
 
+bool known(const std::vector<Started>& states, const Started& state) {
+  const Vector fingerprint = state.problem->fingerprint(state.x, state.p);
+  return std::ranges::any_of(states, [&](const Started& other) {
+    return continuation::same_fingerprint(other.problem->fingerprint(other.x, other.p), fingerprint, same_state);
+  });
+}
+
 }  // namespace
 
 std::vector<Started> hanging_arches(const scene::Scene& scene, const std::vector<std::string>& keys) {
@@ -37,6 +47,8 @@ std::vector<Started> hanging_arches(const scene::Scene& scene, const std::vector
   const chain::Profile shape = flat.problem->profile(flat.x, flat.p);
   const double edge = shape.contacts.back().s;
   std::string failure;
+  scene::Scene mirrored = scene;
+  mirrored.model.symmetry = scene::Symmetry::mirror;
   for (const bool middle : {true, false})
     for (const double beyond : {0.5, 1.0})  // [ρ], as far as a tail of these tensions takes to level off
       for (const double depth : {0.2, 0.5, 1.0}) {
@@ -45,11 +57,20 @@ std::vector<Started> hanging_arches(const scene::Scene& scene, const std::vector
         const auto found = dragged_on(whole, hanging(shape, end, depth, scene.plate->height),
                                       contacts(edge, end, middle), keys, failure);
         if (!found) continue;
-        const auto problem = std::make_shared<RodProblem>(scene, true, found->problem->topology(),
-                                                          found->problem->meshes(), keys);
-        if (auto half = fold(*problem, found->x, found->p, chain::Symmetry::mirror))
-          out.push_back(std::move(*half));
+        const auto on_chain = [&](const scene::Scene& of) {
+          return std::make_shared<RodProblem>(of, true, found->problem->topology(), found->problem->meshes(),
+                                              keys);
+        };
+        auto half = fold(*on_chain(mirrored), found->x, found->p, chain::Symmetry::mirror);
+        if (!half || known(out, *half)) continue;
+        out.push_back(std::move(*half));
       }
+  if (scene.mirrored()) return out;
+  for (Started& arch : out) {
+    Started whole = unfold(*arch.problem, arch.x, arch.p, arch.newton_iterations);
+    arch = {std::make_shared<RodProblem>(scene, true, whole.problem->topology(), whole.problem->meshes(), keys),
+            whole.x, whole.p, whole.newton_iterations};
+  }
   return out;
 }
 

@@ -221,6 +221,9 @@ std::optional<Started> dragged_on(const scene::Scene& scene, const chain::Profil
 
 Started flat_on_plate(const scene::Scene& scene, const std::vector<std::string>& keys) {
   std::string failure;
+  if (scene.friction_arm() > 0.0 && std::isfinite(scene.plate->outer_radius))
+    throw NoEquilibrium(
+        "there is no flat coil: the moment of the friction twists its tails, which plate.outer_radius lets rise");
   // Without a line the coil in space is free to turn: its shape is that of the plane.
   const bool lies = rod::capstan::line_contact(scene.load.tension, scene.load.angle);
   const std::optional<Started> still =
@@ -249,7 +252,8 @@ std::optional<double> tails_cross(const chain::Profile& shape) {
   const Piece& tail = shape.pieces.back();
   for (Eigen::Index k = 1; k < tail.s.size(); ++k) {
     const double before = tail.r(0, k - 1), after = tail.r(0, k);
-    if (before * after > 0.0 || after == before) continue;
+    constexpr double touching = 1e-9;  // a touch in the middle is no crossing
+    if (before * after > 0.0 || std::abs(before) < touching) continue;
     return tail.s(k - 1) + (tail.s(k) - tail.s(k - 1)) * before / (before - after);
   }
   return std::nullopt;
@@ -295,6 +299,11 @@ std::optional<Started> crossing_on_plate(const scene::Scene& scene, const std::v
   const Started flat = flat_on_plate(thin, keys);
   const chain::Profile shape = flat.problem->profile(flat.x, flat.p);
   const std::optional<double> crossing = tails_cross(shape);
+  if (crossing && (scene.friction_arm() > 0.0 || !scene.free_of_torsion())) {
+    failure = "its tails would cross, which is built for tails without torsion: ends.kind = \"moment_free\" and "
+              "cylinder.friction_couple = false";
+    return std::nullopt;
+  }
   if (!crossing) {
     auto problem =
         std::make_shared<RodProblem>(scene, true, flat.problem->topology(), flat.problem->meshes(), keys);
@@ -323,9 +332,6 @@ std::optional<Started> crossing_on_plate(const scene::Scene& scene, const std::v
 }  // namespace
 
 Started coil_on_plate(const scene::Scene& scene, const std::vector<std::string>& keys) {
-  if (scene.friction_arm() > 0.0)
-    throw NoEquilibrium("there is no flat coil: the moment of the friction twists its tails (" +
-                        couple_not_carried() + ")");
   if (scene.second_plate) {
     std::string failure;
     const Started coil = coil_on_plate(with_one_plate(scene), {"load.tension"});
@@ -375,7 +381,11 @@ std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector
   // Next to nothing; with more friction the plate holds the tail nearer to the coil, so that short tails need more.
   constexpr double least = 1e-3, next = 2.0, most = 0.1;
   const double goal = scene.dragging_friction();
-  std::vector<Started> out = scene.mirrored() ? hanging_arches(scene, keys) : std::vector<Started>();
+  std::vector<Started> out;
+  try {
+    if (!(scene.strand_radius() > 0.0)) out = hanging_arches(scene, keys);
+  } catch (const NoEquilibrium&) {  // no flat coil to bend down
+  }
   const std::size_t arches = out.size();
   int followed = 0, points = 0, beyond = 0;
   for (const FoundState& still : search(standing(scene), true, false, {"load.tension"}).states) {
@@ -412,7 +422,7 @@ std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector
   }
   searched = fmt::format("{} states without friction dragged to mu = {:.4g} and as far again, {} points",
                          followed, goal, points);
-  if (scene.mirrored()) searched += fmt::format("; {} that hang from the plate on both sides", arches);
+  if (arches > 0) searched += fmt::format("; {} that hang from the plate on both sides", arches);
   if (beyond > 0)
     searched += fmt::format("; {} would touch the plate beyond plate.outer_radius = {:.6g}", beyond,
                             scene.plate->outer_radius);

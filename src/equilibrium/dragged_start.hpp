@@ -24,8 +24,8 @@ Started coil_on_plate(const scene::Scene& scene, const std::vector<std::string>&
 std::optional<Started> under_the_plate(const Started& still, const scene::Scene& scene, double friction,
                                        std::string& failure);
 
-/// Half chains of coils that hang from the plate on both sides, mirror images of themselves, which nothing without friction leads
-/// to: from the flat coil bent down, on touches of the cylinder at its outermost contacts and in the middle.
+/// Coils that hang from the plate on both sides, mirror images of themselves (half chains where the scene asks for the symmetry,
+/// full ones elsewhere), which nothing without friction leads to: from the flat coil bent down, on touches of the cylinder at its outermost contacts and in the middle.
 std::vector<Started> hanging_arches(const scene::Scene& scene, const std::vector<std::string>& keys);
 
 /// States that have left the plate but for some places, at the scene's friction: those that the states without

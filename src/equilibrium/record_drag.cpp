@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flat_torsion.hpp"
 #include "windlass/rod/quaternion.hpp"
 
 namespace windlass::equilibrium {
@@ -133,6 +134,7 @@ void record_drag(const RodProblem& problem, const Vector& x, const contact::Load
       joint.r(2) += scene.plate->height, joint.z += scene.plate->height;
       joint.plate_force = *scene.friction * joint.force;
     }
+    if (scene.friction_arm() > 0.0) add_flat_torsion(scene, out);
     return;
   }
   const double travelled = problem.chain().travelled(x);
@@ -142,6 +144,7 @@ void record_drag(const RodProblem& problem, const Vector& x, const contact::Load
   const double on_plate = drag_on_plate(out, whole, links, *scene.friction, loads.compliance);
   out.plate_force += on_plate + push_on_plate(out, whole, links);
   out.F0 = on_plate + axial_drag(out, whole, links);
+  if (scene.friction_arm() > 0.0 && lies_in_plate(problem.topology())) add_flat_torsion(scene, out);
 }
 
 }  // namespace windlass::equilibrium

@@ -9,6 +9,7 @@
 
 #include "dense_samples.hpp"
 #include "end_events.hpp"
+#include "flat_torsion.hpp"
 #include "friction_couple.hpp"
 #include "stretched_drag.hpp"
 #include "windlass/chain/singular_matrix.hpp"
@@ -125,14 +126,18 @@ bool RodProblem::varies(const char* key) const {
 }
 
 bool RodProblem::coupled() const {
-  return base_.arm != 0.0 || (varies("rod.radius") && scene_.friction_has_couple());
+  return scene_.friction_arm() > 0.0 || (varies("rod.radius") && scene_.friction_has_couple());
 }
+
+bool RodProblem::flat() const { return !spatial_ || lies_in_plate(topology_); }
 
 const char* RodProblem::missing_on(const Topology& topology) const {
   const auto asked = [&](double Loads::*field) {
     return base_.*field != 0.0 || std::find(fields_.begin(), fields_.end(), field) != fields_.end();
   };
-  if (coupled() && !(spatial_ && carries_couple(topology))) return "cylinder.friction_couple";
+  if (coupled() && !(spatial_ && carries_couple(topology)) &&
+      !((!spatial_ || lies_in_plate(topology)) && stays_in_plate(topology, scene_)))
+    return "cylinder.friction_couple";
   for (int j = 0; j < static_cast<int>(topology.on.size()); ++j)
     if (obstacle::plate_at(scene_, topology.seat(j).flat) == 2 ||
         obstacle::plate_at(scene_, topology.seat(j).stop) == 2)
@@ -159,7 +164,7 @@ void RodProblem::rebuild() {
             ? "plate.2.height: the second plate and the cylinder cannot hold the rod at one place"
         : key == std::string_view("plate.outer_radius") ? rim_not_thickened()
                                                         : couple_not_carried());
-  rod_.coupled = coupled();
+  rod_.coupled = coupled() && !flat();
   chain_ = chain::build_chain(rod_, topology_, meshes_);
   chain_->let_slide(slides_);
   finer_.reset();
@@ -187,6 +192,10 @@ Loads RodProblem::loads(const Vector& p) {
   Loads loads = base_;
   for (std::size_t k = 0; k < keys_.size(); ++k)
     if (fields_[k]) loads.*fields_[k] = p(k);
+  if (loads.arm != 0.0) {
+    if (scene_.self_contact) loads.radius = loads.arm;
+    if (flat()) loads.arm = 0.0;  // the torsion of a flat coil acts back on nothing
+  }
   if (!scene_.slides()) loads.friction = 0.0;  // of a cylinder that stands it only enters F0
   if (scene_.has_cylinder && !(loads.tension > 0.0)) throw std::domain_error("the tension is not positive");
   return loads;

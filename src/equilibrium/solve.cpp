@@ -280,6 +280,20 @@ Equilibria on_rung(const scene::Scene& scene) {
 
 }  // namespace
 
+void answer_with_stable(Equilibria& found, const scene::Scene& scene) {
+  const auto first = found.states.begin();
+  const auto stable = std::find_if(first, found.states.end(), [](const auto& s) { return s.index == 0; });
+  if (stable == first || stable == found.states.end()) return;
+  const std::string reason = fmt::format("a stable state; not so, with index {}, {}",
+                                         first->index, found.answer.model_reason);
+  std::rotate(first, stable, stable + 1);
+  const auto problem = reopen(scene, first->restart, {load_key(scene)});
+  Started state{problem, first->restart.state, problem->parameters(), 0};
+  const double seconds = found.answer.seconds_solve;
+  found.answer = finish(state, reason);
+  found.answer.seconds_total = found.answer.seconds_solve = seconds;
+}
+
 StateSummary summarised(const Started& state, const scene::Scene& natural) {
   Started own = state;
   const Solution solution = finish(own, "");

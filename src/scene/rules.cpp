@@ -139,17 +139,10 @@ void check_friction_couple(const Scene& scene, const Refuse& refuse) {
   const char* key = "cylinder.friction_couple";
   if (!(scene.friction_arm() > 0.0) && !(scene.friction_has_couple() && starts_in(scene, "rod.radius")))
     return;
-  if (scene.self_contact)
-    refuse(key,
-           "must be false for a rod that may touch itself: the moment of the friction about its centre line "
-           "twists its "
-           "tails, which then do not lie in the plate; a rod with rod.self_contact = false may have it");
   if (scene.ends.left_kind() == EndKind::moment_free && scene.ends.right_kind() == EndKind::moment_free)
     refuse(key,
            "must be false where both ends turn freely: nothing balances the moment of the friction about the "
            "rod's tangent; ends.kind = \"clamped\" or \"spin_held\" holds it");
-  if (scene.model.kind == ModelKind::planar)
-    refuse(key, "must be false with model.kind = \"planar\": the moment of the friction twists the rod");
 }
 
 /// Cylinders that slide.
@@ -183,13 +176,6 @@ void check_sliding(const Document& document, const Scene& scene) {
                     "away") +
             (scene.second_plate ? "; of two plates the first holds the rod back" : ""));
   check_friction_couple(scene, refuse);
-  for (const auto& [end, kind] :
-       {std::pair{"ends.left", scene.ends.left_kind()}, {"ends.right", scene.ends.right_kind()}})
-    if (scene.self_contact && kind != EndKind::moment_free)
-      refuse(
-          document.find(end) ? end : "ends.kind",
-          "must be \"moment_free\" for a rod that may touch itself with cylinder.sliding = \"up\": its tail "
-          "would carry torsion, and not lie flat in the plate");
   if (!scene.rod.isotropic_straight())
     refuse("cylinder.sliding", "needs an isotropic, naturally straight rod");
 }

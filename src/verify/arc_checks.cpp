@@ -175,7 +175,7 @@ void check_sample(const ArcRecord& arc, Eigen::Index i, const Surroundings& arou
   found.off_surface.add(std::abs(Gap(stored, around.below).value));
   found.off_surface.add(std::abs(Gap(stored, around.below).rate));
   const double off = around.below.has_couple() ? taken_by_couple(stored, around.law.K[0]) -
-                                                     pressure * around.below.lever(stored.r, tangent(stored))
+                                                     pressure * around.below.lever(tangent(stored))
                                                : pressure - around.pressure(stored);
   found.pressure.add(std::abs(off) / scales.force);
 }
@@ -187,7 +187,7 @@ void look_along(const std::vector<Section>& sections, double begin, double h, Ar
     if (kind == ArcKind::line) {
       found.off_surface.add(std::abs(Gap(sections[k], around.below).value));
       const double w =
-          around.below.has_couple() ? around.below.lever(sections[k].r, tangent(sections[k])) : 0.0;
+          around.below.has_couple() ? around.below.lever(tangent(sections[k])) : 0.0;
       const bool between = k + 1 < sections.size();  // at the samples w may be too small
       if (!around.below.has_couple())
         found.pressures.emplace_back(begin + static_cast<double>(k) * h, around.pressure(sections[k]));
@@ -227,7 +227,7 @@ void prescribe(RodFlow& flow, const ArcRecord& arc, Eigen::Index i) {
 /// From one sample to the next of a line whose friction has a moment: the way that its pressure flows.
 double integrate_coupled(RodFlow& flow, const ArcRecord& arc, Eigen::Index i, const Surroundings& around,
                          const Scales& scales, Collected& found) {
-  const auto lever = [&](const Section& x) { return around.below.lever(x.r, tangent(x)); };
+  const auto lever = [&](const Section& x) { return around.below.lever(tangent(x)); };
   const Section left = sample(arc, i), right = sample(arc, i + 1);
   const bool backward = lever(left) > 0.0 && lever(right) > 0.0,
              forward = lever(left) < 0.0 && lever(right) < 0.0;
@@ -316,7 +316,7 @@ double check_arcs(const Solution& solution, const scene::Scene& scene, const Sca
     // A line on nothing; or with what this integration has not: a stretch by the friction along it.
     const bool stretched =
         below && law.stretches() && below->drags() && !(flat && std::abs(solution.travel_rate) < tight);
-    if (arc.kind == ArcKind::line && (!below || (flat && below->has_couple()) || stretched))
+    if (arc.kind == ArcKind::line && (!below || stretched))
       found.off_surface.add(NAN);
     const Shape pressed = !below ? none : flat ? below->beside_plate() : *below;
     integrate(arc, {law, shapes, pressed}, scales, found);

@@ -105,7 +105,8 @@ void check_joints(const Solution& solution, const scene::Scene& scene, const Sca
                           (on_plate(left, scene) && on_plate(right, scene));
         // Friction along a rod that stretches changes the stretch: at a point it slips with the mean of the two.
         const Vector3d slope = 0.5 * (law.stretch(before) + law.stretch(after)) * tangent(after);
-        jump += joint.force * (held ? shape->beside_plate() : *shape).push(after.r, slope);
+        const double curvature = after.m.z() / (scene.rod.bending_stiffness * law.stretch(after));
+        jump += joint.force * (held ? shape->beside_plate(curvature) : *shape).push(after.r, slope);
         turn += joint.force * shape->couple(after.r, slope);
       }
       surface.add(shape ? std::abs(shape->gap(after.r)) : NAN);
@@ -295,7 +296,8 @@ void check_totals(const Solution& solution, const scene::Scene& scene, const Sca
   }
   double sum = 0.0, first = 0.0, last = 0.0;
   bool any = false;
-  for (const ArcRecord& arc : solution.arcs) sum += arc.force;
+  for (const ArcRecord& arc : solution.arcs)
+    if (!solution.has_cylinder || arc.obstacle <= 0) sum += arc.force;  // not a plate's
   for (const JointRecord& joint : solution.joints) {
     if (joint.kind != JointKind::touch && joint.kind != JointKind::edge) continue;
     if (solution.has_cylinder && joint.obstacle > 0) continue;  // a plate's

@@ -173,7 +173,7 @@ Section RodFlow::Memory::section(const double* y, double s) const {
 
 double RodFlow::Memory::pressure(const Section& x, double s) const {
   if (shape.has_couple() && places.size() == 0)
-    return taken_by_couple(x, stiffness.K[0]) / shape.lever(x.r, tangent(x));
+    return taken_by_couple(x, stiffness.K[0]) / shape.lever(tangent(x));
   if (places.size() > 0) {
     double sum = 0.0;
     for (Eigen::Index i = 0; i < places.size(); ++i) {

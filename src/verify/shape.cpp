@@ -31,16 +31,20 @@ Shape Shape::slipping(double friction, double travel, double arm) {
   return shape;
 }
 
-Shape Shape::beside_plate() const {
+Shape Shape::beside_plate(double curvature) const {
   Shape shape = *this;
-  shape.plate_takes_ = true;
+  shape.left_by_plate_ = arm_ * curvature;
   return shape;
 }
 
+Vector3d Shape::drag(const Vector3d& t) const {
+  return friction_ * (Vector3d::UnitZ() - travel_ * t).normalized();
+}
+
 Vector3d Shape::push(const Vector3d& r, const Vector3d& t) const {
-  Vector3d drag = friction_ * (Vector3d::UnitZ() - travel_ * t).normalized();
-  if (plate_takes_) drag.z() = 0.0;
-  return outward(r, t) + drag;
+  Vector3d along = drag(t);
+  if (left_by_plate_) along.z() *= *left_by_plate_;
+  return outward(r, t) + along;
 }
 
 Eigen::Vector2d Shape::beside(const Vector3d& r) const {

@@ -42,4 +42,8 @@ struct Equilibria {
 /// @throws NoEquilibrium, saying what was searched
 Equilibria equilibria(const scene::Scene& scene);
 
+/// Of states whose indices are known, as those of dragged ones are from their spectra, the first stable one becomes the answer.
+/// @param scene  that of equilibria(), determinate
+void answer_with_stable(Equilibria& found, const scene::Scene& scene);
+
 }  // namespace windlass::equilibrium

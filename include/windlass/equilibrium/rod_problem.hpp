@@ -125,6 +125,8 @@ class RodProblem final : public continuation::Problem {
   const char* missing_on(const Topology& topology) const;
   /// Does the friction of a cylinder that slides have a moment about the centre line, or may it get one?
   bool coupled() const;
+  /// Does the rod lie in a plane by its contacts alone? The moment of the friction is then added on recording.
+  bool flat() const;
   /// Does the cylinder slip along the rod? Its force then has no potential, and no index counts anything.
   bool dragged() const { return chain_->dragged(); }
   double last_error() const { return last_error_; }

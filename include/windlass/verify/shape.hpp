@@ -20,8 +20,9 @@ class Shape {
   /// The cylinder slipping towards +e_z along a rod that runs along itself at `travel` times its speed.
   /// @param arm  from the rod's centre line to where its friction acts; 0: without moment about it
   static Shape slipping(double friction, double travel, double arm);
-  /// The same where a plate takes what the friction has along e_z.
-  Shape beside_plate() const;
+  /// The same where a plate takes what the friction has along e_z, but for what holds a rod of this curvature, twisted by the
+  /// moment of that friction, in the plate: n_z = M κ.
+  Shape beside_plate(double curvature = 1.0) const;
 
   double gap(const Eigen::Vector3d& r) const;
   /// Normal part of the contact force on a rod with the tangent t, of size 1. Only a sharp edge asks for t: normal to it.
@@ -30,11 +31,11 @@ class Shape {
   Eigen::Vector3d push(const Eigen::Vector3d& r, const Eigen::Vector3d& t) const;
   /// The moment of push() about the centre line, per force: it acts `arm` below it.
   Eigen::Vector3d couple(const Eigen::Vector3d& r, const Eigen::Vector3d& t) const {
-    return -arm_ * outward(r, t).cross(push(r, t));
+    return -arm_ * outward(r, t).cross(outward(r, t) + drag(t));
   }
   /// w = arm mu d·t of a rod with the unit tangent t: what the moment is about the binormal t × N, per force along the normal.
-  double lever(const Eigen::Vector3d& r, const Eigen::Vector3d& t) const {
-    return arm_ * (push(r, t) - outward(r, t)).dot(t);
+  double lever(const Eigen::Vector3d& t) const {
+    return left_by_plate_ ? 0.0 : arm_ * drag(t).dot(t);  // what lies in a plate has t·e_z = 0
   }
   bool has_edge() const { return std::isfinite(outer_radius_); }
   /// The same plate without an end.
@@ -62,7 +63,8 @@ class Shape {
   /// Of a place: outward from the physical edge, and from the plate's physical plane.
   Eigen::Vector2d beside(const Eigen::Vector3d& r) const;
   double outer_radius_ = HUGE_VAL, rod_radius_ = 0.0;
-  bool plate_takes_ = false;
+  Eigen::Vector3d drag(const Eigen::Vector3d& t) const;  ///< mu d
+  std::optional<double> left_by_plate_;  ///< share of the friction along e_z
 };
 
 /// All shapes of a scene, in the order that contacts name them by.
