@@ -206,15 +206,9 @@ int run_pull(const PullRequest& request) {
   if (scene.ends.guided())
     throw scene::SceneError(
         scene.name + ": ends.guide: a pull needs \"none\": the discrete rod's ends are under dead pulls");
-  if (scene.rod.extensible)
-    throw scene::SceneError(scene.name +
-                            ": rod.extensible: a pull needs false: its discrete rod does not stretch");
   if (scene.plate && !std::isinf(scene.plate->outer_radius))
     throw scene::SceneError(scene.name +
                             ": plate.outer_radius: a pull needs \"inf\": its plate has no outer edge");
-  if (scene.second_plate)
-    throw scene::SceneError(scene.name +
-                            ": plate.2.height: a pull needs one plate: its discrete rod knows no second one");
   const std::vector<double> meshes = meshes_of(request, scene::natural(scene).load.tension);
   petsc::ensure_session();
   PullResult result;

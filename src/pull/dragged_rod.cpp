@@ -12,6 +12,7 @@
 namespace windlass::pull {
 
 using discrete_rod::cubic_weights;
+using discrete_rod::OpenSpline;
 using discrete_rod::Quadrature;
 using discrete_rod::Weights;
 using Eigen::Index;
@@ -62,10 +63,12 @@ DraggedRod::Place DraggedRod::at(const Local& local, int q, const Memory& last, 
   const Vector3d from = last.place.col(k);
   out.force = -step.damping * (out.r - from);
   out.by_place = -step.damping * Matrix3d::Identity();
-  if (step.dragged) {
-    const auto [depth, slope] = rounded(out.r(2) - setting.plate, rounding_);
-    out.plate = bed_ * depth;
-    out.force(2) -= out.plate;
+  for (const double side : {1.0, -1.0}) {  // the plate above, the second one below
+    const double height = side > 0.0 ? setting.plate : setting.below;
+    if (!step.plates || !std::isfinite(height)) continue;
+    const auto [depth, slope] = rounded(side * (out.r(2) - height), rounding_);
+    out.plate += bed_ * depth;
+    out.force(2) -= side * bed_ * depth;
     out.by_place(2, 2) -= bed_ * slope;
   }
   const double distance = out.r.head<2>().norm();
@@ -94,35 +97,60 @@ DraggedRod::Place DraggedRod::at(const Local& local, int q, const Memory& last, 
   return out;
 }
 
-/// Bending and the length, whose multiplier is the tension.
-void DraggedRod::add_shape(Local& local) const {
-  double length = 0.0;
-  for (std::size_t q = 0; q < Quadrature::points; ++q) {
-    const double t = Quadrature::place[q], weight = Quadrature::weight[q];
+namespace {
+
+/// Bending energy and length of an element, with what they derive to by its control points.
+struct ElementShape {
+  double bending = 0.0, length = 0.0;
+  Eigen::Matrix<double, 12, 1> by_bending = Eigen::Matrix<double, 12, 1>::Zero(),
+                               by_length = Eigen::Matrix<double, 12, 1>::Zero();
+  Eigen::Matrix<double, 12, 12> bending_twice = Eigen::Matrix<double, 12, 12>::Zero(),
+                                length_twice = Eigen::Matrix<double, 12, 12>::Zero();
+
+  ElementShape(const OpenSpline::Controls& controls, bool derivatives) {
+    for (std::size_t q = 0; q < Quadrature::points; ++q)
+      add(controls, Quadrature::place[q], Quadrature::weight[q], derivatives);
+  }
+  void add(const OpenSpline::Controls& controls, double t, double weight, bool derivatives) {
     const Weights first = cubic_weights(t, 1), second = cubic_weights(t, 2);
-    const Vector3d along = local.controls * first;
-    const discrete_rod::BendingDensity bending(along, local.controls * second);
+    const Vector3d along = controls * first;
+    const discrete_rod::BendingDensity density(along, controls * second);
     const double norm = along.norm();
     const Vector3d tangent = along / norm;
     const Matrix3d across = (Matrix3d::Identity() - tangent * tangent.transpose()) / norm;
+    bending += weight * density.value;
     length += weight * norm;
-    const Vector3d by_first = bending.gradient.head<3>() + local.tension * tangent;
-    const Matrix3d by_both = bending.hessian.topLeftCorner<3, 3>() + local.tension * across;
     for (int a = 0; a < 4; ++a) {
-      local.residual.segment<3>(3 * a) +=
-          weight * (first(a) * by_first + second(a) * bending.gradient.tail<3>());
-      if (!local.derivatives) continue;
-      local.matrix.block<3, 1>(3 * a, 12) += weight * first(a) * tangent;
-      for (int b = 0; b < 4; ++b)
-        local.matrix.block<3, 3>(3 * a, 3 * b) +=
-            weight * (first(a) * first(b) * by_both +
-                      second(a) * second(b) * bending.hessian.bottomRightCorner<3, 3>() +
-                      first(a) * second(b) * bending.hessian.topRightCorner<3, 3>() +
-                      second(a) * first(b) * bending.hessian.bottomLeftCorner<3, 3>());
+      by_bending.segment<3>(3 * a) += weight * (first(a) * density.gradient.head<3>() +
+                                                second(a) * density.gradient.tail<3>());
+      by_length.segment<3>(3 * a) += weight * first(a) * tangent;
+      if (!derivatives) continue;
+      for (int b = 0; b < 4; ++b) {
+        length_twice.block<3, 3>(3 * a, 3 * b) += weight * first(a) * first(b) * across;
+        bending_twice.block<3, 3>(3 * a, 3 * b) +=
+            weight * (first(a) * first(b) * density.hessian.topLeftCorner<3, 3>() +
+                      second(a) * second(b) * density.hessian.bottomRightCorner<3, 3>() +
+                      first(a) * second(b) * density.hessian.topRightCorner<3, 3>() +
+                      second(a) * first(b) * density.hessian.bottomLeftCorner<3, 3>());
+      }
     }
   }
-  local.residual(12) = length - local.length;
+};
+
+}  // namespace
+
+void DraggedRod::add_shape(Local& local) const {
+  const ElementShape shape(local.controls, local.derivatives);
+  const double k = setting.compliance, h = local.length, N = local.tension;
+  const double strain = k * (N - shape.bending / h);
+  local.residual.head<12>() += (1.0 + strain) * shape.by_bending + N * shape.by_length;
+  local.residual(12) = shape.length - h * (1.0 + strain);
+  if (!local.derivatives) return;
+  local.matrix.topLeftCorner<12, 12>() += (1.0 + strain) * shape.bending_twice + N * shape.length_twice -
+                                          k / h * shape.by_bending * shape.by_bending.transpose();
+  local.matrix.col(12).head<12>() += k * shape.by_bending + shape.by_length;
   local.matrix.row(12).head<12>() = local.matrix.col(12).head<12>().transpose();
+  local.matrix(12, 12) = -h * k;
 }
 
 void DraggedRod::add_contact(Local& local, const Memory& last, const Step& step) const {

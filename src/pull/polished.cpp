@@ -112,6 +112,10 @@ std::optional<equilibrium::StateSummary> polished(const Pull& pull, const Platea
     failure = "where strands touch is not read off a pull";
     return std::nullopt;
   }
+  if (scene.second_plate) {
+    failure = "which of two plates is touched is not read off a pull";
+    return std::nullopt;
+  }
   // With the slip remembered all of the contact is at the limit of friction, in the direction that it slips.
   const std::vector<PlaceLoad> loads =
       pull.rod().loads(pull.state().unknowns, pull.memory(), {0.0, 0.0, true});

@@ -56,7 +56,9 @@ Setting setting_of(const scene::Scene& natural) {
   out.tension = natural.load.tension;
   out.angle = natural.load.angle;
   out.plate = natural.plate ? natural.plate->height : 0.0;
+  if (natural.second_plate) out.below = natural.second_plate->height;
   out.radius = natural.strand_radius();
+  out.compliance = natural.rod.compliance();
   out.blocked = natural.ends.travel == scene::Travel::blocked;
   out.coulomb.friction = natural.friction.value_or(0.0);
   return out;
@@ -89,8 +91,24 @@ bool Pull::relax(VectorXd& unknowns) {
   constexpr double first = 10.0, last = 1e-6, fade = 0.1;
   for (double damping = first; damping > last; damping *= fade) {
     const double tension = rod_.setting.tension;
-    if (solver_->solve(memory, {0.0, damping * tension, false}, unknowns) < 0) return false;
+    if (solver_->solve(memory, {0.0, damping * tension, false, false}, unknowns) < 0) return false;
     memory = rod_.fresh_memory(unknowns);
+  }
+  return true;
+}
+
+/// Without friction the second plate is brought from below the rod to where it is, against a damping that leaves tails which lie on
+/// either plate without force where they are: the rod comes to rest as the pull begins.
+bool Pull::squeeze(VectorXd& unknowns, double span) {
+  const double room = rod_.setting.plate - rod_.setting.below;
+  if (!std::isfinite(room)) return true;
+  constexpr double part = 0.05;  // [ρ]
+  const int parts = std::max(1, static_cast<int>(std::ceil((span - room) / part)));
+  for (int k = 1; k <= parts; ++k) {
+    Setting& setting = rod_.setting;
+    setting.below = setting.plate - room - std::max(0.0, span - room) * (1.0 - static_cast<double>(k) / parts);
+    if (solver_->solve(rod_.fresh_memory(unknowns), {0.0, setting.tension, false, true}, unknowns) < 0)
+      return false;
   }
   return true;
 }
@@ -109,9 +127,10 @@ bool Pull::start(const equilibrium::Solution& frictionless) {
     controls = unknowns.head(spline.size());
     before = spline;
     if (h > h_) continue;
-    const Measured at = rod_.measured(unknowns, rod_.fresh_memory(unknowns), {0.0, 0.0, false});
+    const Measured at = rod_.measured(unknowns, rod_.fresh_memory(unknowns), {0.0, 0.0, false, false});
     for (Eigen::Index k = 2; k < spline.size(); k += 3)
       unknowns(k) += rod_.setting.plate - rod_.reach() - at.z_high;
+    if (!squeeze(unknowns, at.z_high - at.z_low)) return false;
     state_ = {unknowns, unknowns, rod_.fresh_memory(unknowns).slip,
               0.0,      0.0,      std::min(rod_.setting.coulomb.slip, options_.step)};
     return true;

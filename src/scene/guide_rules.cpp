@@ -19,9 +19,6 @@ void check_guides(const Document& document, const Scene& scene) {
   if (scene.plate && !scene.slides())
     refuse(
         "must be \"none\" with a plate and without cylinder.sliding = \"up\": the sliders are at its height");
-  if (scene.friction_arm() > 0.0 || (scene.friction_has_couple() && starts_in(scene, "rod.radius")))
-    refuse(
-        "must be \"none\" where the friction has a moment; cylinder.friction_couple = false leaves it out");
 }
 
 }  // namespace windlass::scene

@@ -32,6 +32,7 @@ struct Pulled {
 Pulled pulled(const scene::Scene& scene, double h) {
   scene::Scene rest = scene;
   rest.motion = {}, rest.plate.reset(), rest.friction.reset();
+  rest.second_plate.reset();
   const pull::Options options;
   pull::Pull one(pull::setting_of(scene), 0.5 * scene.rod.length, h, options);
   BOOST_REQUIRE(one.start(equilibrium::solve(rest)));
@@ -64,6 +65,43 @@ BOOST_AUTO_TEST_CASE(a_flat_coil_ends_on_the_closed_form) {
     BOOST_TEST(flat.rows.front().at.sticking == 1.0);
     BOOST_TEST(flat.rows.back().at.sticking == 0.0);
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_flat_coil_that_stretches_ends_on_its_own_state) {
+  // EA = 49, that of R/r = 2.5: F0 is 0.28 % below that of the rod that does not stretch; two meshes, extrapolated, tell them apart.
+  scene::Scene scene = dragged_scene(1.0, 2.0 * M_PI, 0.32, scene::Travel::blocked);
+  const auto limit = [&] {
+    const Pulled coarse = pulled(scene, 0.2), fine = pulled(scene, 0.14);
+    BOOST_REQUIRE(coarse.at.has_value());
+    BOOST_REQUIRE(fine.at.has_value());
+    const double ratio = std::pow(0.2 / 0.14, 3);
+    return (ratio * fine.at->drag - coarse.at->drag) / (ratio - 1.0);
+  };
+  const double rigid = limit() / *equilibrium::solve(scene).F0;
+  scene.rod.extensible = true;
+  scene.rod.axial_stiffness = 49.0;
+  const double elastic = limit() / *equilibrium::solve(scene).F0;
+  BOOST_TEST_MESSAGE("F/F0 - 1: " << rigid - 1.0 << " without stretch, " << elastic - 1.0 << " with");
+  BOOST_TEST(std::abs(rigid - 1.0) < 5e-4);
+  BOOST_TEST(std::abs(elastic - 1.0) < 5e-4);
+}
+
+BOOST_AUTO_TEST_CASE(a_helix_between_two_plates_ends_on_its_steady_state) {
+  // 1 apart the second plate holds the lower tail: it carries what F is short of the first one's force.
+  scene::Scene scene = dragged_scene(0.57, 2.0 * M_PI, 0.1, scene::Travel::blocked);
+  scene.rod.length = 30.0;
+  scene.second_plate.emplace();
+  scene.second_plate->side = scene::PlateSide::below;
+  scene.second_plate->height = -1.0;
+  const Pulled fine = pulled(scene, 0.14);
+  BOOST_REQUIRE(fine.at.has_value());
+  double nearest = HUGE_VAL;
+  for (const auto& state : equilibrium::equilibria(scene).states)
+    nearest = std::min(nearest, std::abs(fine.at->drag / *state.F0 - 1.0));
+  BOOST_TEST(nearest < 1e-3);  // beds on one mesh this coarse
+  const pull::Measured& at = fine.rows.back().at;
+  BOOST_TEST(at.plate_force > at.drag * 1.001);
+  BOOST_TEST(at.z_high - at.z_low < 1.01);
 }
 
 BOOST_AUTO_TEST_CASE(a_helix_is_dragged_to_the_steady_state_with_the_third_power_of_h) {

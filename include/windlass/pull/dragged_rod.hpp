@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <cmath>
 
 #include "windlass/discrete_rod/open_spline.hpp"
 #include "windlass/pull/friction.hpp"
@@ -11,7 +12,9 @@ namespace windlass::pull {
 struct Setting {
   double tension = 1.0, angle = 0.0;  ///< T, φ
   double plate = 0.0;                 ///< the centre line stays at z <= plate [ρ]
+  double below = -HUGE_VAL;           ///< and at z >= below, of a second plate [ρ]
   double radius = 0.0;                ///< of a rod whose strands keep twice that apart; 0: a thin one [ρ]
+  double compliance = 0.0;  ///< 1/EA of a rod that stretches [ρ²/EI]
   bool blocked = false;  ///< no travel along itself: pulls T ± τ, τ unknown; else both T and it may travel
   Coulomb coulomb;
 };
@@ -26,7 +29,8 @@ struct Memory {
 struct Step {
   double advance = 0.0;  ///< of the cylinder along its axis [ρ]
   double damping = 0.0;  ///< force per length against motion since the last step [EI/ρ⁴]
-  bool dragged = true;   ///< friction and plate; else neither, for the relaxed start
+  bool dragged = true;   ///< friction; else none, for the relaxed start
+  bool plates = true;    ///< likewise
 };
 
 /// Forces and places at the end of a step.
@@ -52,10 +56,10 @@ struct PlaceLoad {
 /// Unknowns: 3 (M + 3) coordinates of control points, M tensions N_e, and τ where the travel is blocked.
 /// Equations, as many:
 ///
-///     ∂E/∂c − Σ_q w_q ∂r_q/∂c · (p N + q − κ_p [z − z_p]₊ e_z − γ (r − r⁰)) = 0,   l_e = h_e,
+///     ∂E/∂c − Σ_q w_q ∂r_q/∂c · (p N + q − κ [z − z_p]₊ e_z + κ [z₂ − z]₊ e_z − γ (r − r⁰)) = 0,   l_e = h_e (1 + ε_e),
 ///     ½ (r_R·e_R − r_L·e_L) = 0,
 ///
-/// E = ∫ ½ κ² ds + Σ N_e (l_e − h_e) − (T + τ) e_R·r_R − (T − τ) e_L·r_L; p = κ_c [1 − ϱ]₊, N outward, q by Coulomb's
+/// E = Σ b_e + N_e (l_e − h_e) − ½ k h_e (N_e − b_e/h_e)² − (T + τ) e_R·r_R − (T − τ) e_L·r_L; p = κ_c [1 − ϱ]₊, N outward, q by Coulomb's
 /// law (`Coulomb`) from the slip g = g⁰ + (e_θ·(r − r⁰), z − z⁰ − ΔU), all of it at the end of the step (backward Euler),
 /// q in the end's tangent plane. The matrix is exact and unsymmetric. The beds follow the mesh as in
 /// `discrete_rod::minimise`, κ = 4/(3/2 h)⁴: forces are off by O(h³). Strands of a thick rod press on each other without friction, by

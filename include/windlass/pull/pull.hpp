@@ -78,6 +78,8 @@ class Pull {
 
  private:
   bool relax(Eigen::VectorXd& unknowns);
+  /// @param span  height of the rod, which has just come under the first plate [ρ]
+  bool squeeze(Eigen::VectorXd& unknowns, double span);
   void accept(const Eigen::VectorXd& unknowns, const Memory& last, const Step& step);
   /// Moves on at the same displacement. @return iterations, or −1
   int jump(double advance, Row& row);
