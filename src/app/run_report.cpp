@@ -8,6 +8,7 @@
 #include "windlass/obstacle/scene_obstacles.hpp"
 #include "windlass/output/report.hpp"
 #include "windlass/petsc/session.hpp"
+#include "windlass/scene/units.hpp"
 
 namespace windlass::app {
 
@@ -18,6 +19,7 @@ int run_report(const RunRequest& request) {
   output::ReportOptions options;
   options.units = scene.units;
   options.obstacles = obstacle::obstacles_of(scene);
+  options.plates = scene::natural(scene).plates();
   options.rod_radius = scene.rod_radius;
   options.file = request.common.out;
   Progress progress(request.common.quiet);

@@ -18,6 +18,10 @@ std::string clove_hitch_up_run(const Thickness& thickness);
 
 std::vector<PlannedRun> knot_runs();
 
+/// The hitch on a plate, while a cylinder slides through it.
+std::string sliding_hitch_run(const Thickness& thickness);
+std::vector<PlannedRun> sliding_hitch_runs();
+
 /// R/r = 2.5, of the paper's simulations of the knot.
 inline constexpr const Thickness& simulated = thicknesses[2];
 static_assert(simulated.ratio == 2.5);

@@ -77,7 +77,7 @@ std::filesystem::path write_page(const std::vector<Figure>& figures, const Study
       "computed anew, none is read off the paper.</p>\n"
       "<p>The model: an inextensible Kirchhoff rod, GJ/EI = 2/3, ends free of moment unless said otherwise, "
       "round a rigid "
-      "cylinder without friction in the wrapping plane and without plates, both but in the figure of the "
+      "cylinder without friction in the wrapping plane and without plates, both but in the figures of the "
       "sliding strength on a plate; no deformation of its cross-section. "
       "Rods are thin "
       "(they pass through themselves) in the figures of the paper's main text; in those on R/r they have "
@@ -105,7 +105,7 @@ std::vector<Figure> draw_all(const Study& study, const Canvas& canvas) {
   std::vector<Figure> figures;
   for (const auto& draw :
        {contact_force, strength, collapse, pressure, pressure_map, wrapping_angle, surgical_knot,
-        radius_ratio, contact_set, crossing_map, thin_limit, clove_hitch, sliding})
+        radius_ratio, contact_set, crossing_map, thin_limit, clove_hitch, sliding, sliding_hitch})
     figures.push_back(draw(study, canvas));
   return figures;
 }

@@ -28,6 +28,7 @@ std::vector<PlannedRun> planned_runs() {
   }
   for (PlannedRun& run : thick_runs()) runs.push_back(std::move(run));
   for (PlannedRun& run : knot_runs()) runs.push_back(std::move(run));
+  for (PlannedRun& run : sliding_hitch_runs()) runs.push_back(std::move(run));
   for (PlannedRun& run : sliding_runs()) runs.push_back(std::move(run));
   return runs;
 }

@@ -142,6 +142,12 @@ std::vector<ReportQuantity> quantities(const Run& run, const ReportOptions& opti
             {"end_force", "end thrust [EI/ρ²]", [](const BranchRow& r) { return r.end_force; }},
             {"end_moment", "axial end moment [EI/ρ]", [](const BranchRow& r) { return r.end_moment; }}};
   }
+  if (capstan && !options.plates.empty()) {
+    list.push_back({"F0", "drag of the cylinder F0 [EI/ρ²]",
+                    [](const BranchRow& r) { return r.F0.value_or(std::nan("")); }});
+    list.push_back({"plate_force", "forces of the plates [EI/ρ²]",
+                    [](const BranchRow& r) { return r.plate_force; }});
+  }
   // A flat rod in three dimensions is flat to rounding.
   const auto or_flat = [](double value) { return std::abs(value) < 1e-7 ? 0.0 : value; };
   list.push_back(
@@ -203,6 +209,18 @@ ordered_json branches_json(const Run& run, const std::vector<ReportQuantity>& li
   return json;
 }
 
+/// Of each plate: the height of its surface, a radius of the rod beyond where it stops the centre line, and its outer radius, null
+/// where it is endless.
+ordered_json plates_json(const ReportOptions& options) {
+  ordered_json plates = ordered_json::array();
+  for (const scene::Plate& plate : options.plates) {
+    const double up = plate.side == scene::PlateSide::above ? 1.0 : -1.0;
+    plates.push_back({{"z", short_number(plate.height + up * options.rod_radius)},
+                      {"outer", finite_or_null(plate.outer_radius)}});
+  }
+  return plates;
+}
+
 }  // namespace
 
 ordered_json report_data(const Run& run, const ReportOptions& options) {
@@ -222,6 +240,7 @@ ordered_json report_data(const Run& run, const ReportOptions& options) {
   const std::size_t stride = 1 + run.points.size() / std::max<std::size_t>(1, options.most_rods);
   data["rods"] = ordered_json::object();
   data["sheets"] = ordered_json::array();
+  data["plates"] = plates_json(options);
   for (std::size_t i = 0; i < run.points.size(); ++i) {
     const PointStore::Key& key = run.points.keys()[i];
     if (i % stride != 0 && key.label.empty()) continue;

@@ -51,6 +51,7 @@ Figure thin_limit(const Study& study, const Canvas& canvas);    ///< tilt and R_
 Figure clove_hitch(const Study& study, const Canvas& canvas);   ///< R_tot(T), R/r = 1, 2.5, 5
 Figure sliding(const Study& study,
                const Canvas& canvas);  ///< F0/mu on a plate with friction in the shape; pulls
+Figure sliding_hitch(const Study& study, const Canvas& canvas);  ///< F0/mu against R_tot; the clove hitch
 
 /// All of them. @throws output::OutputError when a file cannot be written or gnuplot fails
 std::vector<Figure> draw_all(const Study& study, const Canvas& canvas);

@@ -10,6 +10,7 @@ namespace windlass::output {
 
 struct ReportOptions {
   obstacle::Set obstacles;            ///< drawn beside struts
+  std::vector<scene::Plate> plates;   ///< drawn round the cylinder
   std::optional<scene::Units> units;  ///< adds newtons and grams to the quantities on offer
   double rod_radius = 0.0;            ///< [ρ]; 0: rods are drawn as lines
   std::size_t most_rods = 600;        ///< rods stored in the page; of longer runs every k-th ordinary point

@@ -170,6 +170,20 @@
     };
   }
 
+  /** Plates round the cylinder: a ring each, as wide as the space shown. */
+  function plateTraces() {
+    const wide = 3, turns = 72, inner = 1;
+    return (data.plates || []).map((plate) => {
+      const x = [[], []], y = [[], []], z = [[], []], outer = plate.outer === null ? wide : Math.min(wide, plate.outer);
+      for (let k = 0; k <= turns; ++k) {
+        const a = (2 * Math.PI * k) / turns;
+        [inner, outer].forEach((radius, row) => { x[row].push(radius * Math.cos(a)); y[row].push(radius * Math.sin(a)); z[row].push(plate.z); });
+      }
+      return { type: "surface", x, y, z, showscale: false, hoverinfo: "skip", opacity: 0.35, colorscale: [[0, "#8fa3bf"], [1, "#8fa3bf"]],
+        contours: { x: { highlight: false }, y: { highlight: false }, z: { highlight: false } } };
+    });
+  }
+
   /** Walls: a rectangle each. */
   function sheetTraces() {
     return (data.sheets || []).map((corners) => {
@@ -267,7 +281,7 @@
 
   function drawRod(rod) {
     const axis = (text) => ({ title: { text }, backgroundcolor: "#fff", gridcolor: "#eee", zerolinecolor: "#ddd", nticks: 5 });
-    const traces = [modeTrace(rod), ...(capstan ? [cylinderTrace(rod)] : []), ...sheetTraces(), ...rodTraces(rod), ...touchTraces(rod), ...forceTraces(rod)];
+    const traces = [modeTrace(rod), ...(capstan ? [cylinderTrace(rod)] : []), ...sheetTraces(), ...plateTraces(), ...rodTraces(rod), ...touchTraces(rod), ...forceTraces(rod)];
     Plotly.react("rod", traces, {
       font, margin: { l: 0, r: 0, t: 0, b: 0 }, uirevision: "rod",
       scene: { aspectmode: "data", xaxis: axis("x"), yaxis: axis("y"), zaxis: axis("z"),

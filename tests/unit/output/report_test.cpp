@@ -103,6 +103,25 @@ BOOST_AUTO_TEST_CASE(a_thick_rod_has_its_radius_and_names_partners) {
   BOOST_TEST(strands == 2u);
 }
 
+BOOST_AUTO_TEST_CASE(plates_are_drawn_where_the_surface_of_the_rod_meets_them) {
+  const test::TemporaryFolder temporary;
+  test::write_synthetic_run(temporary / "run");
+  output::ReportOptions options;
+  options.rod_radius = 0.25;
+  options.plates = {{.height = 0.5}, {.height = -1.0, .side = scene::PlateSide::below, .outer_radius = 2.0}};
+  const auto data = output::report_data(output::read_run(temporary / "run"), options);
+  BOOST_REQUIRE(data["plates"].size() == 2u);
+  BOOST_TEST(data["plates"][0]["z"] == 0.75);
+  BOOST_TEST(data["plates"][0]["outer"].is_null());
+  BOOST_TEST(data["plates"][1]["z"] == -1.25);
+  BOOST_TEST(data["plates"][1]["outer"] == 2.0);
+  const auto named = [&](const char* name) {
+    return std::ranges::any_of(data["quantities"], [&](const auto& one) { return one["name"] == name; });
+  };
+  BOOST_TEST(named("F0"));
+  BOOST_TEST(named("plate_force"));
+}
+
 BOOST_AUTO_TEST_CASE(page_is_self_contained) {
   const test::TemporaryFolder temporary;
   test::write_synthetic_run(temporary / "run");
