@@ -32,7 +32,8 @@ std::vector<Pressing> contacts(double edge, double end, bool middle) {
 bool known(const std::vector<Started>& states, const Started& state) {
   const Vector fingerprint = state.problem->fingerprint(state.x, state.p);
   return std::ranges::any_of(states, [&](const Started& other) {
-    return continuation::same_fingerprint(other.problem->fingerprint(other.x, other.p), fingerprint, same_state);
+    return continuation::same_fingerprint(other.problem->fingerprint(other.x, other.p), fingerprint,
+                                          same_state);
   });
 }
 
@@ -68,8 +69,9 @@ std::vector<Started> hanging_arches(const scene::Scene& scene, const std::vector
   if (scene.mirrored()) return out;
   for (Started& arch : out) {
     Started whole = unfold(*arch.problem, arch.x, arch.p, arch.newton_iterations);
-    arch = {std::make_shared<RodProblem>(scene, true, whole.problem->topology(), whole.problem->meshes(), keys),
-            whole.x, whole.p, whole.newton_iterations};
+    arch = {
+        std::make_shared<RodProblem>(scene, true, whole.problem->topology(), whole.problem->meshes(), keys),
+        whole.x, whole.p, whole.newton_iterations};
   }
   return out;
 }

@@ -223,7 +223,8 @@ Started flat_on_plate(const scene::Scene& scene, const std::vector<std::string>&
   std::string failure;
   if (scene.friction_arm() > 0.0 && std::isfinite(scene.plate->outer_radius))
     throw NoEquilibrium(
-        "there is no flat coil: the moment of the friction twists its tails, which plate.outer_radius lets rise");
+        "there is no flat coil: the moment of the friction twists its tails, which plate.outer_radius lets "
+        "rise");
   // Without a line the coil in space is free to turn: its shape is that of the plane.
   const bool lies = rod::capstan::line_contact(scene.load.tension, scene.load.angle);
   const std::optional<Started> still =
@@ -300,8 +301,9 @@ std::optional<Started> crossing_on_plate(const scene::Scene& scene, const std::v
   const chain::Profile shape = flat.problem->profile(flat.x, flat.p);
   const std::optional<double> crossing = tails_cross(shape);
   if (crossing && (scene.friction_arm() > 0.0 || !scene.free_of_torsion())) {
-    failure = "its tails would cross, which is built for tails without torsion: ends.kind = \"moment_free\" and "
-              "cylinder.friction_couple = false";
+    failure =
+        "its tails would cross, which is built for tails without torsion: ends.kind = \"moment_free\" and "
+        "cylinder.friction_couple = false";
     return std::nullopt;
   }
   if (!crossing) {

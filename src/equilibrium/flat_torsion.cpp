@@ -48,13 +48,9 @@ struct Twisted {
   ArcRecord& arc;
 
   Vector3d tangent(Eigen::Index k) const { return rod::directors(arc.q.col(k)).col(2); }
-  double stretch(Eigen::Index k) const {
-    return 1.0 + scene.rod.compliance() * arc.n.col(k).dot(tangent(k));
-  }
+  double stretch(Eigen::Index k) const { return 1.0 + scene.rod.compliance() * arc.n.col(k).dot(tangent(k)); }
   /// θ'/λ, the curvature in the plane.
-  double curvature(Eigen::Index k) const {
-    return arc.m(2, k) / (scene.rod.bending_stiffness * stretch(k));
-  }
+  double curvature(Eigen::Index k) const { return arc.m(2, k) / (scene.rod.bending_stiffness * stretch(k)); }
   /// Its rate along a free arc: B θ'' = −λ n_ν, λ' = θ' n_ν / EA, ν = e_z × t.
   double curvature_rate(Eigen::Index k) const {
     const double across = arc.n.col(k).dot(Vector3d::UnitZ().cross(tangent(k)));

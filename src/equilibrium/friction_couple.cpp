@@ -18,7 +18,8 @@ bool carries_couple(const Topology& topology) {
 }
 
 std::string couple_not_carried() {
-  return "cylinder.friction_couple: is built for coils that lie all along in a plate without an outer edge, both "
+  return "cylinder.friction_couple: is built for coils that lie all along in a plate without an outer edge, "
+         "both "
          "ends' spin held, and for touches and lines of the cylinder, not for rods of which a part lies on "
          "cylinder and plate at once; false leaves the moment of the friction out";
 }

@@ -284,8 +284,8 @@ void answer_with_stable(Equilibria& found, const scene::Scene& scene) {
   const auto first = found.states.begin();
   const auto stable = std::find_if(first, found.states.end(), [](const auto& s) { return s.index == 0; });
   if (stable == first || stable == found.states.end()) return;
-  const std::string reason = fmt::format("a stable state; not so, with index {}, {}",
-                                         first->index, found.answer.model_reason);
+  const std::string reason =
+      fmt::format("a stable state; not so, with index {}, {}", first->index, found.answer.model_reason);
   std::rotate(first, stable, stable + 1);
   const auto problem = reopen(scene, first->restart, {load_key(scene)});
   Started state{problem, first->restart.state, problem->parameters(), 0};

@@ -106,8 +106,7 @@ std::vector<double> relaxing_pulls(const scene::Scene& scene) {
 
 /// The first state that has left the plate; the flat coil, which the automatic rung starts with, where there is none.
 Started dragged_first(const scene::Scene& scene, const std::vector<std::string>& keys) {
-  if (scene.model.kind != scene::ModelKind::kirchhoff)
-    return coil_on_plate(scene, keys);
+  if (scene.model.kind != scene::ModelKind::kirchhoff) return coil_on_plate(scene, keys);
   std::string searched;
   const std::vector<Started> states = dragged_states(scene, keys, searched);
   if (states.empty()) throw NoEquilibrium("no state that has left the plate was found: " + searched);

@@ -85,17 +85,21 @@ Statement statement(const Study& study) {
     const std::vector<Beside> states = beside(study, thickness);
     std::string some;
     for (const double tension : {0.1, 0.3, 0.8, 2.0}) {
-      const auto near = std::ranges::min(states, {}, [&](const Beside& s) { return std::abs(s.T - tension); });
+      const auto near =
+          std::ranges::min(states, {}, [&](const Beside& s) { return std::abs(s.T - tension); });
       constexpr double at_all = 0.05;
       if (std::abs(near.T - tension) > at_all * tension) continue;
-      some += fmt::format("{}{:.3f} at T = {:.3g}", some.empty() ? "" : ", ", near.strength / near.still, near.T);
+      some +=
+          fmt::format("{}{:.3f} at T = {:.3g}", some.empty() ? "" : ", ", near.strength / near.still, near.T);
       below = below && near.strength < 1.1 * near.still;
     }
     each += fmt::format("{}R/r = {}: {}", each.empty() ? "" : "; ", thickness.name, some);
   }
   return {"the strength of the clove hitch is μ times the total normal force of the knot at rest",
-          "F0 of the dragged knot over μ R_tot of the knot without friction, μ = 0.32: " + each, Verdict::differs,
-          "friction changes the shape: loose knots are dragged into ones that hold less, tight ones into ones that "
+          "F0 of the dragged knot over μ R_tot of the knot without friction, μ = 0.32: " + each,
+          Verdict::differs,
+          "friction changes the shape: loose knots are dragged into ones that hold less, tight ones into "
+          "ones that "
           "hold a little more"};
 }
 
@@ -103,7 +107,7 @@ Statement statement(const Study& study) {
 
 Figure sliding_hitch(const Study& study, const Canvas& canvas) {
   std::vector<std::string> names;
-  std::string strengths, together;
+  std::string still, strengths, together;
   for (const Angle& angle : angles) {
     const std::string run = on_plate_run(angle);
     write(run, flat_coils(study, angle), canvas);
@@ -114,7 +118,7 @@ Figure sliding_hitch(const Study& study, const Canvas& canvas) {
     if (thickness.colour == nullptr) continue;
     const std::string run = sliding_hitch_run(thickness);
     write(run, beside(study, thickness), canvas);
-    strengths += curve(run, "1:3", 4.0, "1", "#d0d0d0", "");
+    still += curve(run, "1:3", 4.0, "1", "#d0d0d0", "");
     strengths += curve(run, "1:2", 1.8, "1", thickness.colour, fmt::format("R/r = {}", thickness.name));
     together += curve(run, "3:2", 1.6, "(10,6)", thickness.colour,
                       fmt::format("clove hitch, R/r = {}", thickness.name));
@@ -124,17 +128,22 @@ Figure sliding_hitch(const Study& study, const Canvas& canvas) {
   picture.body += tension_axis(0.09, 2.2) + "  set xtics (0.1, 0.2, 0.5, 1, 2)\n" +
                   force_axis(0.2, 30, "F_0/μ  [EI/ρ²]") + "  set key top left reverse Left samplen 3\n" +
                   output::margins(0.08, 0.49, 0.13, 0.9) + panel_letter('a', "clove hitch on a plate") +
-                  "  plot NaN with lines lw 4 lc rgb '#d0d0d0' title 'R_{tot} without friction'" + strengths + "\n";
+                  "  plot NaN with lines lw 4 lc rgb '#d0d0d0' title 'R_{tot} without friction'" + still +
+                  strengths + "\n";
   picture.body += std::string("  set xtics auto\n  set logscale x\n  set xrange [0.1:60]\n") +
-                  "  set xlabel 'R_{tot} without friction  [EI/ρ²]' offset 0,0.4\n" + force_axis(0.1, 60, "") +
-                  output::margins(0.57, 0.98, 0.13, 0.9) + panel_letter('b', "against the normal force") +
+                  "  set xlabel 'R_{tot} without friction  [EI/ρ²]' offset 0,0.4\n" +
+                  force_axis(0.1, 60, "") + output::margins(0.57, 0.98, 0.13, 0.9) +
+                  panel_letter('b', "against the normal force") +
                   "  plot x with lines lw 5 lc rgb '#d8d8d8' title 'F_0 = μ R_{tot}'" + together +
                   "\n  unset multiplot\n";
   output::run_gnuplot(picture, canvas.folder, canvas.formats);
   return {"sliding-hitch",
-          "Sliding strength against the total normal force, and that of the clove hitch with friction in its shape",
-          "F0/μ at μ = 0.32, a plate, travel along itself blocked. (a) Grey: R_tot of the hitch that nothing drags, "
-          "interpolated between computed states; colours: F0/μ of the dragged one. (b) The same, and flat coils on "
+          "Sliding strength against the total normal force, and that of the clove hitch with friction in its "
+          "shape",
+          "F0/μ at μ = 0.32, a plate, travel along itself blocked. (a) Grey: R_tot of the hitch that nothing "
+          "drags, "
+          "interpolated between computed states; colours: F0/μ of the dragged one. (b) The same, and flat "
+          "coils on "
           "their plate against the closed form, where that is defined.",
           names,
           {statement(study)}};

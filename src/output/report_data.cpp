@@ -145,8 +145,8 @@ std::vector<ReportQuantity> quantities(const Run& run, const ReportOptions& opti
   if (capstan && !options.plates.empty()) {
     list.push_back({"F0", "drag of the cylinder F0 [EI/ρ²]",
                     [](const BranchRow& r) { return r.F0.value_or(std::nan("")); }});
-    list.push_back({"plate_force", "forces of the plates [EI/ρ²]",
-                    [](const BranchRow& r) { return r.plate_force; }});
+    list.push_back(
+        {"plate_force", "forces of the plates [EI/ρ²]", [](const BranchRow& r) { return r.plate_force; }});
   }
   // A flat rod in three dimensions is flat to rounding.
   const auto or_flat = [](double value) { return std::abs(value) < 1e-7 ? 0.0 : value; };

@@ -121,8 +121,8 @@ struct ElementShape {
     bending += weight * density.value;
     length += weight * norm;
     for (int a = 0; a < 4; ++a) {
-      by_bending.segment<3>(3 * a) += weight * (first(a) * density.gradient.head<3>() +
-                                                second(a) * density.gradient.tail<3>());
+      by_bending.segment<3>(3 * a) +=
+          weight * (first(a) * density.gradient.head<3>() + second(a) * density.gradient.tail<3>());
       by_length.segment<3>(3 * a) += weight * first(a) * tangent;
       if (!derivatives) continue;
       for (int b = 0; b < 4; ++b) {

@@ -97,20 +97,23 @@ bool Pull::relax(VectorXd& unknowns) {
   return true;
 }
 
-/// Without friction the second plate is brought from below the rod to where it is, against a damping that leaves tails which lie on
-/// either plate without force where they are: the rod comes to rest as the pull begins.
+/// Without friction the second plate is brought from below the rod to where it is. Tails come to lie along both plates all at once:
+/// against a damping like the beds' stiffness each place finds its own way, and as it fades it comes to rest.
 bool Pull::squeeze(VectorXd& unknowns, double span) {
-  const double room = rod_.setting.plate - rod_.setting.below;
+  Setting& setting = rod_.setting;
+  const double room = setting.plate - setting.below, excess = std::max(0.0, span - room);
   if (!std::isfinite(room)) return true;
-  constexpr double part = 0.05;  // [ρ]
-  const int parts = std::max(1, static_cast<int>(std::ceil((span - room) / part)));
+  const double part = 0.5 * h_, stiff = rod_.stiffness(), fade = 0.3;
+  const auto settle = [&](double damping) {
+    return solver_->solve(rod_.fresh_memory(unknowns), {0.0, damping, false, true}, unknowns) >= 0;
+  };
+  const int parts = std::max(1, static_cast<int>(std::ceil(excess / part)));
   for (int k = 1; k <= parts; ++k) {
-    Setting& setting = rod_.setting;
-    setting.below = setting.plate - room - std::max(0.0, span - room) * (1.0 - static_cast<double>(k) / parts);
-    if (solver_->solve(rod_.fresh_memory(unknowns), {0.0, setting.tension, false, true}, unknowns) < 0)
-      return false;
+    setting.below = setting.plate - room - excess * (1.0 - static_cast<double>(k) / parts);
+    if (!settle(stiff)) return false;
   }
-  return true;
+  for (double damping = stiff; damping > setting.tension && settle(damping);) damping *= fade;
+  return true;  // the pull begins with the rod at rest, or brings it there
 }
 
 bool Pull::start(const equilibrium::Solution& frictionless) {

@@ -186,8 +186,7 @@ void look_along(const std::vector<Section>& sections, double begin, double h, Ar
   for (std::size_t k = 1; k < sections.size(); ++k) {
     if (kind == ArcKind::line) {
       found.off_surface.add(std::abs(Gap(sections[k], around.below).value));
-      const double w =
-          around.below.has_couple() ? around.below.lever(tangent(sections[k])) : 0.0;
+      const double w = around.below.has_couple() ? around.below.lever(tangent(sections[k])) : 0.0;
       const bool between = k + 1 < sections.size();  // at the samples w may be too small
       if (!around.below.has_couple())
         found.pressures.emplace_back(begin + static_cast<double>(k) * h, around.pressure(sections[k]));
@@ -316,8 +315,7 @@ double check_arcs(const Solution& solution, const scene::Scene& scene, const Sca
     // A line on nothing; or with what this integration has not: a stretch by the friction along it.
     const bool stretched =
         below && law.stretches() && below->drags() && !(flat && std::abs(solution.travel_rate) < tight);
-    if (arc.kind == ArcKind::line && (!below || stretched))
-      found.off_surface.add(NAN);
+    if (arc.kind == ArcKind::line && (!below || stretched)) found.off_surface.add(NAN);
     const Shape pressed = !below ? none : flat ? below->beside_plate() : *below;
     integrate(arc, {law, shapes, pressed}, scales, found);
   }

@@ -224,7 +224,6 @@ BOOST_AUTO_TEST_CASE(what_two_plates_cannot_be_is_refused_with_key_and_reason) {
   says("solve", shipped_scene("capstan-2pi-plate-thick"), {"plate.2.height=-0.5"},
        {"plate.2.height = -0.5", "2 rod.radius"});
   says("continue", one, {"continuation.parameter=plate.2.height"}, {"plate.2.height", "second"});
-  says("pull", two, {}, {"plate.2.height", "one plate"});
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -54,19 +54,24 @@ BOOST_AUTO_TEST_CASE(a_pull_says_which_steady_state_it_selects) {
 }
 
 BOOST_AUTO_TEST_CASE(a_state_that_solve_does_not_list_is_found_from_the_plateau) {
-  // An arch that hangs from the plate on both sides.
-  const TemporaryFolder folder;
-  const Outcome outcome = run_program(pulling({"--set", "load.tension=0.4", "--set", "load.angle=3 pi",
-                                               "--mesh", "0.2", "--mesh", "0.14", "--json", "--out", "p"}),
-                                      folder.path());
-  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
-  const auto json = nlohmann::json::parse(outcome.out);
-  BOOST_TEST(json["selected_by"] == "plateau");
-  BOOST_TEST(json["selected"]["index"] == 0);
-  // Blocked: F0 = mu R_tot, on exact arcs to rounding; the discrete rod is as far off as two coarse meshes are.
-  const double F0 = json["selected"]["F0"], R_tot = json["selected"]["R_tot"];
-  BOOST_TEST(std::abs(F0 / (0.32 * R_tot) - 1.0) < 1e-9);
-  BOOST_TEST(std::abs(json["plateau"]["F"].get<double>() / F0 - 1.0) < 1e-3);
+  // Arches that hang from the plate on both sides: solve lists that of mu = 0.32, which it finds from bent flat coils, not that of 0.6.
+  for (const auto& [tension, friction, listed] :
+       {std::tuple{"load.tension=0.4", 0.32, true}, {"load.tension=0.45", 0.6, false}}) {
+    const TemporaryFolder folder;
+    const Outcome outcome =
+        run_program(pulling({"--set", tension, "--set", "load.angle=3 pi", "--set",
+                             "cylinder.friction=" + std::to_string(friction), "--set", "rod.length=40",
+                             "--mesh", "0.2", "--mesh", "0.14", "--json", "--out", "p"}),
+                    folder.path());
+    BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    const auto json = nlohmann::json::parse(outcome.out);
+    BOOST_TEST((json["selected_by"] == "plateau") == !listed);
+    BOOST_TEST(json["selected"]["index"] == 0);
+    // Blocked: F0 = mu R_tot, on exact arcs to rounding; the discrete rod is as far off as two coarse meshes are.
+    const double F0 = json["selected"]["F0"], R_tot = json["selected"]["R_tot"];
+    BOOST_TEST(std::abs(F0 / (friction * R_tot) - 1.0) < 1e-9);
+    BOOST_TEST(std::abs(json["plateau"]["F"].get<double>() / F0 - 1.0) < 1e-3);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(an_interrupted_pull_goes_on_to_the_same_table) {

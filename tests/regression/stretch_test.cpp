@@ -95,10 +95,6 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused_with_key_and_reason) {
       folder.path());
   BOOST_TEST(tilted.status == 2, tilted.err);
   BOOST_TEST(contains(tilted.err, "rod.extensible"), tilted.err);
-  const Outcome pulled =
-      run_program({"pull", shipped_scene("capstan-vps-pom-plate"), "--out", "pull"}, folder.path());
-  BOOST_TEST(pulled.status == 1);
-  BOOST_TEST(contains(pulled.err, "rod.extensible"), pulled.err);
   const Outcome guided =
       run_program({"pull", shipped_scene("capstan-2pi-plate"), "--set", "ends.guide=slider"}, folder.path());
   BOOST_TEST(guided.status == 1);

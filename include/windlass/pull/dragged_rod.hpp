@@ -14,7 +14,7 @@ struct Setting {
   double plate = 0.0;                 ///< the centre line stays at z <= plate [ρ]
   double below = -HUGE_VAL;           ///< and at z >= below, of a second plate [ρ]
   double radius = 0.0;                ///< of a rod whose strands keep twice that apart; 0: a thin one [ρ]
-  double compliance = 0.0;  ///< 1/EA of a rod that stretches [ρ²/EI]
+  double compliance = 0.0;            ///< 1/EA of a rod that stretches [ρ²/EI]
   bool blocked = false;  ///< no travel along itself: pulls T ± τ, τ unknown; else both T and it may travel
   Coulomb coulomb;
 };
@@ -78,6 +78,7 @@ class DraggedRod {
   const Spline& spline() const { return spline_; }
   /// Distance from an obstacle within which its bed begins to push [ρ].
   double reach() const { return rounding_; }
+  double stiffness() const { return bed_; }  ///< of the beds, force per length and depth [EI/ρ⁴]
   Eigen::Index size() const { return spline_.size() + spline_.elements() + (setting.blocked ? 1 : 0); }
   /// Unknowns of a shape under the pulls alone.
   Vector unknowns(const Vector& controls) const;

@@ -64,7 +64,7 @@ class Shape {
   Eigen::Vector2d beside(const Eigen::Vector3d& r) const;
   double outer_radius_ = HUGE_VAL, rod_radius_ = 0.0;
   Eigen::Vector3d drag(const Eigen::Vector3d& t) const;  ///< mu d
-  std::optional<double> left_by_plate_;  ///< share of the friction along e_z
+  std::optional<double> left_by_plate_;                  ///< share of the friction along e_z
 };
 
 /// All shapes of a scene, in the order that contacts name them by.
