@@ -131,6 +131,26 @@ bool RodProblem::coupled() const {
 
 bool RodProblem::flat() const { return !spatial_ || lies_in_plate(topology_); }
 
+namespace {
+
+/// Does a strand that lies in a plate touch another? All that is free beside it is taken to lie there, which twisted it does not.
+bool strands_in_plate(const Topology& topology) {
+  for (int j = 0; j < static_cast<int>(topology.on.size()); ++j)
+    if (topology.seat(j).strand != 0 && topology.seat(j).flat >= 0) return true;
+  return false;
+}
+
+std::string not_built(std::string_view key) {
+  if (key == "rod.extensible") return stretch_not_carried();
+  if (key == "plate.2.height")
+    return "plate.2.height: the second plate and the cylinder cannot hold the rod at one place";
+  if (key == "plate.outer_radius") return rim_not_thickened();
+  if (key == "ends.kind") return "ends.kind: strands that touch in a plate are built for ends free of moment";
+  return couple_not_carried();
+}
+
+}  // namespace
+
 const char* RodProblem::missing_on(const Topology& topology) const {
   const auto asked = [&](double Loads::*field) {
     return base_.*field != 0.0 || std::find(fields_.begin(), fields_.end(), field) != fields_.end();
@@ -143,6 +163,8 @@ const char* RodProblem::missing_on(const Topology& topology) const {
         obstacle::plate_at(scene_, topology.seat(j).stop) == 2)
       return "plate.2.height";
   if (varies("rod.radius") && touches_rim(rod_, topology)) return "plate.outer_radius";
+  if (rod_.travel != chain::Travel::none && !scene_.free_of_torsion() && strands_in_plate(topology))
+    return "ends.kind";
   if (rod_.travel != chain::Travel::none && asked(&Loads::compliance) &&
       !carries_stretch(topology, rod_.travel))
     return "rod.extensible";
@@ -157,13 +179,7 @@ void RodProblem::rebuild() {
   if (varies("rod.weight_y")) rod_.weighs[1] = true;
   if (varies("rod.weight_z")) rod_.weighs[2] = true;
   base_ = loads_of(scene_);
-  if (const char* key = missing_on(topology_))
-    throw NoEquilibrium(
-        key == std::string_view("rod.extensible") ? stretch_not_carried()
-        : key == std::string_view("plate.2.height")
-            ? "plate.2.height: the second plate and the cylinder cannot hold the rod at one place"
-        : key == std::string_view("plate.outer_radius") ? rim_not_thickened()
-                                                        : couple_not_carried());
+  if (const char* key = missing_on(topology_)) throw NoEquilibrium(not_built(key));
   rod_.coupled = coupled() && !flat();
   chain_ = chain::build_chain(rod_, topology_, meshes_);
   chain_->let_slide(slides_);

@@ -337,7 +337,8 @@ RodProblem::After RodProblem::after_event(const ContactEvent& event, const chain
                            key == std::string_view("rod.extensible") ? "lines that friction stretches"
                            : key == std::string_view("plate.2.height")
                                ? "places where the cylinder holds the rod, too"
-                               : "lines");
+                           : key == std::string_view("ends.kind") ? "strands that touch in a plate"
+                                                                  : "lines");
       continue;
     }
     continuation::Transition transition;
