@@ -4,6 +4,7 @@
 
 #include "candidates.hpp"
 #include "end_events.hpp"
+#include "line_pressure.hpp"
 #include "line_touches.hpp"
 #include "plate_successors.hpp"
 #include "strand_line_events.hpp"
@@ -33,9 +34,44 @@ std::vector<double> gap_lengths(double width, double factor, double usual, doubl
   return out;
 }
 
-std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& strip, const Piece& line) {
+/// The force by which a strand presses a line to its obstacle at this joint inside of it. Nothing: none does.
+std::optional<double> pressed_by(const Profile& profile, const Strip& strip, int joint) {
+  if (!strip.is_line(joint - 1) || !strip.is_line(joint) || strip.on[joint].strand == 0) return std::nullopt;
+  const double force = presses_on(profile, joint).begin;
+  return force > 0.0 ? std::optional(force) : std::nullopt;
+}
+
+/// A line pulls right up to a strand that presses on it by F: it has opened beside the strand, over `gap`, and to the strand's other
+/// side as far as F, with the edge as its fulcrum, takes the moment at that end of the gap (opening_under_press).
+Successor opened_under_press(const ContactEvent& event, Strip strip, const Profile& profile, bool at_end,
+                             double gap) {
+  const int i = event.place, joint = at_end ? i + 1 : i, beyond = at_end ? i + 1 : i - 1;
+  const double s = strip.s[joint], room = std::abs(strip.s[beyond + 1] - strip.s[beyond]);
+  const double lever =
+      std::clamp(lever_under_press(profile.pieces[i], at_end, gap, *pressed_by(profile, strip, joint)),
+                 2.0 * least_lever * profile.unit_length, 0.5 * room);
+  chain::Seat edge{strip.on[joint].obstacle};
+  edge.flat = strip.on[joint].flat;  // of what lies behind it
+  const auto open = [&](int part, double at, Stretch left, Stretch right) {
+    strip.split(part, at, left, right, edge);
+    strip.parts[left == Stretch::gap ? part : part + 1].fresh = true;
+  };
+  // The part that comes last first, which leaves the others their numbers.
+  open(joint, s + (at_end ? lever : gap), Stretch::gap, Stretch::line);
+  open(joint - 1, s - (at_end ? gap : lever), Stretch::line, Stretch::gap);
+  chain::Seat& press = strip.on[joint + 1];
+  if (press.flat >= 0) press.obstacle = press.flat;  // it is in the plate
+  Successor next = strip.successor();
+  std::sort(next.opened.begin(), next.opened.end(), [&](int a, int b) {  // entered by the length of the gap
+    return next.s[a + 1] - next.s[a] > next.s[b + 1] - next.s[b];
+  });
+  return next;
+}
+
+std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& strip, const Profile& profile) {
   std::vector<Successor> out;
   const int i = event.place;
+  const Piece& line = profile.pieces[i];
   const double begin = strip.s[i], end = strip.s[i + 1], length = end - begin;
   Strip open = strip;  // the whole line lifts at once
   open.parts[i].kind = Stretch::gap;
@@ -44,6 +80,11 @@ std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& st
   const double low = event.from, high = event.to, width = high - low;
   const bool at_start = low <= begin, at_end = high >= end;
   const bool at_mid = at_start && strip.starts_at_mid(i) && !strip.mid_touch;
+  if (at_start != at_end && pressed_by(profile, strip, at_end ? i + 1 : i)) {
+    for (const double size : gap_lengths(width, gap_beside_touch, 0.05, 0.9 * length))
+      out.push_back(opened_under_press(event, strip, profile, at_end, size));
+    return out;
+  }
   const auto cut = [&](Strip part, int link, double from, double to) {  // a gap [from, to] inside a link
     const bool before = from > part.s[link], after = to < part.s[link + 1];
     if (after) part.split(link, to, Stretch::gap, Stretch::line);
@@ -372,7 +413,7 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
       if (vanishes(strip, event.place)) return after_length(event.place, strip);
       {
         std::vector<Successor> out = flat_line_lifts(event.place, strip, profile);
-        const auto others = after_pressure(event, strip, profile.pieces[event.place]);
+        const auto others = after_pressure(event, strip, profile);
         out.insert(out.end(), others.begin(), others.end());
         return out;
       }

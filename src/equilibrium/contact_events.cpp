@@ -265,6 +265,7 @@ ContactEvent length_event(const Profile& profile, const Topology& topology, cons
   });
   const double shortest = piece.stretch == Stretch::tail ? flat_tail ? least_length : shortest_tail * stiffest
                           : shrinks                      ? least_between_touches
+                          : is_lever(topology, i)        ? least_lever
                           : topology.beside_strand(i)    ? least_beside_strand
                           : between_touches              ? least_between_touches
                           : piece.stretch == Stretch::line ? least_under(profile, i)
@@ -285,7 +286,8 @@ ContactEvent length_event(const Profile& profile, const Topology& topology, cons
 /// A force F off the obstacle on a line that is pressed by p lifts it over a length 3F/4p to both sides, in which the moment
 /// changes by 3F²/32p: the line carries that, as it carries short gaps, up to F²/p = `carried_under_strand`.
 ContactEvent reaction_event(const Profile& profile, const Contact& c) {
-  const double pressure = profile.pieces[c.joint].p(0), reaction = *c.reaction;
+  // A strand that is pressed to its obstacle does not lift, whatever becomes of the pressure beside it.
+  const double reaction = *c.reaction, pressure = reaction < 0.0 ? profile.pieces[c.joint].p(0) : 1.0;
   ContactEvent event{Kind::reaction, c.joint,
                      1.0 + reaction * std::abs(reaction) / (pressure * carried_under_strand), c.s};
   event.redrawn = true;
@@ -410,7 +412,7 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
     if (piece.stretch == Stretch::line && presses_at_ends_only(profile, piece)) {
       events.push_back({Kind::pressure, i, far, piece.s(0)});
     } else if (piece.stretch == Stretch::line) {
-      const auto found = pressure_and_suction(piece, i, at_mid);
+      const auto found = pressure_and_suction(piece, i, at_mid, presses_on(profile, i));
       events.insert(events.end(), found.begin(), found.end());
     }
     events.push_back(length_event(profile, topology, strands, i));

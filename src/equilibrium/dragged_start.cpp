@@ -287,6 +287,11 @@ Layout pressed_below(const chain::Profile& shape, double crossing, const scene::
   return out;
 }
 
+/// Do the turns of this flat coil lie on each other?
+bool laps(const chain::Profile& shape) {
+  return shape.pieces.size() == 3 && shape.pieces[1].length() > 2.0 * M_PI;
+}
+
 /// A coil so thick that its tails pass each other, from a thin one on the plate.
 std::optional<Started> crossing_on_plate(const scene::Scene& scene, const std::vector<std::string>& keys,
                                          std::string& failure) {
@@ -294,17 +299,16 @@ std::optional<Started> crossing_on_plate(const scene::Scene& scene, const std::v
   thin.self_contact = false;
   const Started flat = flat_on_plate(thin, keys);
   const chain::Profile shape = flat.problem->profile(flat.x, flat.p);
+  if (laps(shape)) return failure = "the turns of the flat coil lie on each other", std::nullopt;
   const std::optional<double> crossing = tails_cross(shape);
   if (!crossing) {
     auto problem =
         std::make_shared<RodProblem>(scene, true, flat.problem->topology(), flat.problem->meshes(), keys);
-    return Started{problem, flat.x, problem->parameters(), flat.newton_iterations};
+    const Vector p = problem->parameters();
+    if (contacts_hold(*problem, flat.x, p)) return Started{problem, flat.x, p, flat.newton_iterations};
+    return failure = "the flat coil passes through itself", std::nullopt;
   }
-  if (shape.pieces.size() != 3 || shape.pieces[1].s.tail<1>()(0) > M_PI) {  // on touches, or on itself
-    failure = "its turns would lie on each other, which is not built for a coil on a plate";
-    if (shape.pieces.size() != 3) failure = "it has no line contact to start from";
-    return std::nullopt;
-  }
+  if (shape.pieces.size() != 3) return failure = "it has no line contact to start from", std::nullopt;
   failure = "pressed apart where they cross, the tails of the flat coil were not balanced";
   for (double radius = std::min(0.01, scene.rod_radius); radius > 1e-5; radius *= 0.3) {
     scene::Scene slender = scene;
@@ -347,6 +351,16 @@ Started coil_on_plate(const scene::Scene& scene, const std::vector<std::string>&
 
 namespace {
 
+/// Turns of a coil in space lie apart here: an endless helix opens below 3/2 [EI/ρ²].
+constexpr double turns_apart = 1.0;
+
+/// Do turns press on each other at this tension, as those of a thick coil that would lie on itself if it were flat?
+bool turns_press(const scene::Scene& scene) {
+  const double tension = scene.load.tension;
+  return scene.strand_radius() > 0.0 && tension > turns_apart &&
+         rod::capstan::phi_star(tension, scene.load.angle) > M_PI;
+}
+
 /// States beside one plate that the second one, brought to where it is, leads to.
 std::vector<Started> dragged_between_plates(const scene::Scene& scene, const std::vector<std::string>& keys,
                                             std::string& searched) {
@@ -363,14 +377,9 @@ std::vector<Started> dragged_between_plates(const scene::Scene& scene, const std
   return out;
 }
 
-}  // namespace
-
-std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector<std::string>& keys,
+/// States that the frictionless ones lead to as the friction grows.
+std::vector<Started> left_the_plate(const scene::Scene& scene, const std::vector<std::string>& keys,
                                     std::string& searched) {
-  if (scene.second_plate) return dragged_between_plates(scene, keys, searched);
-  if (scene.friction_arm() > 0.0) return dragged_with_couple(scene, keys, searched);
-  if (scene.ends.guided()) return dragged_between_sliders(scene, keys, searched);
-  if (scene.rod.extensible) return dragged_with_stretch(scene, keys, searched);
   constexpr double flat = 1e-6;  // [ρ]
   // Next to nothing; with more friction the plate holds the tail nearer to the coil, so that short tails need more.
   constexpr double least = 1e-3, next = 2.0, most = 0.1;
@@ -389,7 +398,7 @@ std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector
     ++followed;
     continuation::Options options;
     options.target = options.upper = 2.0 * goal;  // beyond it a branch may turn and come back
-    options.lower = 0.0;
+    options.lower = 0.5 * start->p(0);            // one that comes back past its start leads nowhere
     options.parameter_scale = goal;
     options.detect_branch_points = false;
     options.newton_tolerance = 1e-9;
@@ -417,6 +426,41 @@ std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector
     searched += fmt::format("; {} would touch the plate beyond plate.outer_radius = {:.6g}", beyond,
                             scene.plate->outer_radius);
   return out;
+}
+
+/// Coils whose turns press on each other, from the tension at which they lie apart without friction.
+/// @param searched  for people: what was followed
+std::vector<Started> turns_on_plate(const scene::Scene& scene, const std::vector<std::string>& keys,
+                                    std::string& searched) {
+  std::vector<Started> out;
+  scene::Scene moderate = scene;
+  moderate.load.tension = turns_apart;
+  std::string there, lost;
+  const std::vector<Started> found = left_the_plate(moderate, {"load.tension"}, there);
+  for (const Started& from : found) {
+    std::string failure;
+    try {
+      if (auto reached = reach(from, scene, scene.load.tension, false, keys, failure))
+        out.push_back(*reached);
+    } catch (const NoEquilibrium& none) {
+      failure = none.what();
+    }
+    if (!failure.empty()) lost += "; one was not: " + failure;
+  }
+  searched += fmt::format("at T = {:.4g} {}; of the {} found there {} followed to this tension{}",
+                          turns_apart, there, found.size(), out.size(), lost);
+  return out;
+}
+
+}  // namespace
+
+std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector<std::string>& keys,
+                                    std::string& searched) {
+  if (scene.second_plate) return dragged_between_plates(scene, keys, searched);
+  if (scene.friction_arm() > 0.0) return dragged_with_couple(scene, keys, searched);
+  if (scene.ends.guided()) return dragged_between_sliders(scene, keys, searched);
+  if (scene.rod.extensible) return dragged_with_stretch(scene, keys, searched);
+  return turns_press(scene) ? turns_on_plate(scene, keys, searched) : left_the_plate(scene, keys, searched);
 }
 
 }  // namespace windlass::equilibrium
