@@ -4,8 +4,8 @@
 
 #include "candidates.hpp"
 #include "end_events.hpp"
-#include "line_pressure.hpp"
 #include "line_touches.hpp"
+#include "opened_press.hpp"
 #include "plate_successors.hpp"
 #include "strand_line_events.hpp"
 #include "strand_successors.hpp"
@@ -34,40 +34,6 @@ std::vector<double> gap_lengths(double width, double factor, double usual, doubl
   return out;
 }
 
-/// The force by which a strand presses a line to its obstacle at this joint inside of it. Nothing: none does.
-std::optional<double> pressed_by(const Profile& profile, const Strip& strip, int joint) {
-  if (!strip.is_line(joint - 1) || !strip.is_line(joint) || strip.on[joint].strand == 0) return std::nullopt;
-  const double force = presses_on(profile, joint).begin;
-  return force > 0.0 ? std::optional(force) : std::nullopt;
-}
-
-/// A line pulls right up to a strand that presses on it by F: it has opened beside the strand, over `gap`, and to the strand's other
-/// side as far as F, with the edge as its fulcrum, takes the moment at that end of the gap (opening_under_press).
-Successor opened_under_press(const ContactEvent& event, Strip strip, const Profile& profile, bool at_end,
-                             double gap) {
-  const int i = event.place, joint = at_end ? i + 1 : i, beyond = at_end ? i + 1 : i - 1;
-  const double s = strip.s[joint], room = std::abs(strip.s[beyond + 1] - strip.s[beyond]);
-  const double lever =
-      std::clamp(lever_under_press(profile.pieces[i], at_end, gap, *pressed_by(profile, strip, joint)),
-                 2.0 * least_lever * profile.unit_length, 0.5 * room);
-  chain::Seat edge{strip.on[joint].obstacle};
-  edge.flat = strip.on[joint].flat;  // of what lies behind it
-  const auto open = [&](int part, double at, Stretch left, Stretch right) {
-    strip.split(part, at, left, right, edge);
-    strip.parts[left == Stretch::gap ? part : part + 1].fresh = true;
-  };
-  // The part that comes last first, which leaves the others their numbers.
-  open(joint, s + (at_end ? lever : gap), Stretch::gap, Stretch::line);
-  open(joint - 1, s - (at_end ? gap : lever), Stretch::line, Stretch::gap);
-  chain::Seat& press = strip.on[joint + 1];
-  if (press.flat >= 0) press.obstacle = press.flat;  // it is in the plate
-  Successor next = strip.successor();
-  std::sort(next.opened.begin(), next.opened.end(), [&](int a, int b) {  // entered by the length of the gap
-    return next.s[a + 1] - next.s[a] > next.s[b + 1] - next.s[b];
-  });
-  return next;
-}
-
 std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& strip, const Profile& profile) {
   std::vector<Successor> out;
   const int i = event.place;
@@ -82,7 +48,7 @@ std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& st
   const bool at_mid = at_start && strip.starts_at_mid(i) && !strip.mid_touch;
   if (at_start != at_end && pressed_by(profile, strip, at_end ? i + 1 : i)) {
     for (const double size : gap_lengths(width, gap_beside_touch, 0.05, 0.9 * length))
-      out.push_back(opened_under_press(event, strip, profile, at_end, size));
+      out.push_back(opened_under_press(i, strip, profile, at_end, size));
     return out;
   }
   const auto cut = [&](Strip part, int link, double from, double to) {  // a gap [from, to] inside a link
@@ -422,6 +388,8 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
         if (const auto next = touch_reaches_end(event.place, profile, strip)) return {*next};
         return {end_of_rod(strip)};
       }
+      if (const auto opened = opened_press(profile, topology, event.place); opened && event.redrawn)
+        return {closed_under_press(*opened, strip)};
       if (auto flat = flat_line_begins_or_ends(event.place, profile, strip); !flat.empty()) return flat;
       if (const auto fewer = line_with_fewer_touches(profile, topology, event.place, strip)) return {*fewer};
       if (const auto anew = laid_anew_at(profile, chain::Strands(topology), event.place);

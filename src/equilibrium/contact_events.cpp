@@ -254,6 +254,7 @@ ContactEvent length_event(const Profile& profile, const Topology& topology, cons
   const bool between_touches =
       gap && std::count_if(profile.contacts.begin(), profile.contacts.end(), is_touch) == 2;
   const double stiffest = profile.material.stiffness.maxCoeff() / profile.material.bending_stiffness;
+  const auto opened = opened_press(profile, topology, i);
   // The two ends of a line between free strands share a force, by the curvature there: as two touches of a gap.
   const int line = strands.line_along(i);
   const bool shrinks = line >= 0 && !strands.lines()[line].on_obstacles && line == strands.line_of(i) &&
@@ -265,14 +266,19 @@ ContactEvent length_event(const Profile& profile, const Topology& topology, cons
   });
   const double shortest = piece.stretch == Stretch::tail ? flat_tail ? least_length : shortest_tail * stiffest
                           : shrinks                      ? least_between_touches
-                          : is_lever(topology, i)        ? least_lever
+                          : opened                       ? least_lever
                           : topology.beside_strand(i)    ? least_beside_strand
                           : between_touches              ? least_between_touches
                           : piece.stretch == Stretch::line ? least_under(profile, i)
                                                            : least_length;
   const double least = shortest * profile.unit_length;
+  constexpr double shorter = 0.6;
+  if (opened && opened->gap == i) {
+    ContactEvent event{Kind::length, i, part_of_carried(profile, *opened) - shorter, piece.s(0)};
+    event.redrawn = true;
+    return event;
+  }
   if (const auto part = part_of_carried(profile, strands, i); part && !carried) {
-    constexpr double shorter = 0.6;
     ContactEvent event{Kind::length, i, *part - shorter, piece.s(0)};
     event.redrawn = true;
     return event;

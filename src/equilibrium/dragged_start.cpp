@@ -12,6 +12,7 @@
 #include "friction_couple.hpp"
 #include "harvest.hpp"
 #include "stretched_drag.hpp"
+#include "turns_on_plate.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/equilibrium/search.hpp"
 #include "windlass/rod/capstan.hpp"
@@ -351,16 +352,6 @@ Started coil_on_plate(const scene::Scene& scene, const std::vector<std::string>&
 
 namespace {
 
-/// Turns of a coil in space lie apart here: an endless helix opens below 3/2 [EI/ρ²].
-constexpr double turns_apart = 1.0;
-
-/// Do turns press on each other at this tension, as those of a thick coil that would lie on itself if it were flat?
-bool turns_press(const scene::Scene& scene) {
-  const double tension = scene.load.tension;
-  return scene.strand_radius() > 0.0 && tension > turns_apart &&
-         rod::capstan::phi_star(tension, scene.load.angle) > M_PI;
-}
-
 /// States beside one plate that the second one, brought to where it is, leads to.
 std::vector<Started> dragged_between_plates(const scene::Scene& scene, const std::vector<std::string>& keys,
                                             std::string& searched) {
@@ -377,7 +368,8 @@ std::vector<Started> dragged_between_plates(const scene::Scene& scene, const std
   return out;
 }
 
-/// States that the frictionless ones lead to as the friction grows.
+}  // namespace
+
 std::vector<Started> left_the_plate(const scene::Scene& scene, const std::vector<std::string>& keys,
                                     std::string& searched) {
   constexpr double flat = 1e-6;  // [ρ]
@@ -427,32 +419,6 @@ std::vector<Started> left_the_plate(const scene::Scene& scene, const std::vector
                             scene.plate->outer_radius);
   return out;
 }
-
-/// Coils whose turns press on each other, from the tension at which they lie apart without friction.
-/// @param searched  for people: what was followed
-std::vector<Started> turns_on_plate(const scene::Scene& scene, const std::vector<std::string>& keys,
-                                    std::string& searched) {
-  std::vector<Started> out;
-  scene::Scene moderate = scene;
-  moderate.load.tension = turns_apart;
-  std::string there, lost;
-  const std::vector<Started> found = left_the_plate(moderate, {"load.tension"}, there);
-  for (const Started& from : found) {
-    std::string failure;
-    try {
-      if (auto reached = reach(from, scene, scene.load.tension, false, keys, failure))
-        out.push_back(*reached);
-    } catch (const NoEquilibrium& none) {
-      failure = none.what();
-    }
-    if (!failure.empty()) lost += "; one was not: " + failure;
-  }
-  searched += fmt::format("at T = {:.4g} {}; of the {} found there {} followed to this tension{}",
-                          turns_apart, there, found.size(), out.size(), lost);
-  return out;
-}
-
-}  // namespace
 
 std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector<std::string>& keys,
                                     std::string& searched) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dense_samples.hpp"
+#include "opened_press.hpp"
 
 namespace windlass::equilibrium {
 
@@ -78,15 +79,6 @@ bool would_meet(const ContactEvent& a, const ContactEvent& b) {
   return a.value < 0.0 && b.value < 0.0 && std::abs(a.s - b.s) < gap_reaches_edge * (half(a) + half(b));
 }
 
-/// How far the edge of a gap beside a strand that presses is beyond the strand (lever_under_press), over what its line carries: an arc
-/// that can be solved for; as long as the rod does not rise by more than a certificate takes for nothing.
-double part_beside_press(double pull, double width, double force) {
-  constexpr double levers = 4.0, carried_height = 3e-8;  // pull width⁴ of 1e-9 or so
-  const double gap = gap_beside_touch * width, lever = pull * gap * gap / (36.0 * force);
-  return std::max(std::cbrt(lever / (levers * least_lever)),
-                  std::pow(pull * std::pow(width, 4) / carried_height, 0.2));
-}
-
 /// Positive as long as the line carries the gap that has opened in it: one less the gap's length over that which is carried.
 /// Two that would meet are carried until the pressure between them is gone: then they are one.
 /// @param dips  of the whole line, past the mid-point of a half chain too
@@ -141,33 +133,6 @@ std::vector<ContactEvent> on_both_halves(std::vector<ContactEvent> dips, double 
 }
 
 }  // namespace
-
-Presses presses_on(const chain::Profile& profile, int link) {
-  const auto force = [&](int joint) {
-    const chain::Contact* there = profile.contact_at(joint);
-    return there && there->reaction ? std::max(*there->reaction, 0.0) : 0.0;
-  };
-  return {force(link), force(link + 1)};
-}
-
-bool is_lever(const chain::Topology& topology, int link) {
-  const auto kind = [&](int at) {
-    const bool any = at >= 0 && at < static_cast<int>(topology.stretches.size());
-    return any ? topology.stretches[at] : chain::Stretch::tail;
-  };
-  const auto leads = [&](int press, int way) {  // from the edge before it, to the strand
-    return topology.seat(press).strand != 0 && kind(link) == chain::Stretch::gap &&
-           kind(link - way) == chain::Stretch::line && kind(link + way) == chain::Stretch::gap &&
-           kind(link + 2 * way) == chain::Stretch::line;
-  };
-  return leads(link + 1, 1) || leads(link, -1);
-}
-
-double lever_under_press(const Piece& line, bool at_end, double gap, double force) {
-  const Eigen::Index last = line.s.size() - 1, here = at_end ? last : 0, beside = at_end ? last - 1 : 1;
-  const double slope = (line.p(beside) - line.p(here)) / std::abs(line.s(beside) - line.s(here));
-  return std::max(slope, 0.0) * std::pow(gap, 3) / (60.0 * force);
-}
 
 std::array<ContactEvent, 2> pressure_and_suction(const Piece& line, int link, bool from_mid,
                                                  const Presses& presses) {
