@@ -4,6 +4,7 @@
 
 #include "candidates.hpp"
 #include "end_events.hpp"
+#include "lies_flat.hpp"
 #include "line_touches.hpp"
 #include "opened_press.hpp"
 #include "plate_successors.hpp"
@@ -288,6 +289,21 @@ std::vector<Successor> after_skeleton(const ContactEvent& event, const Profile& 
   return out;
 }
 
+/// Strands that meet where one of them lies flat in a plate, right behind the plate's touch: it stays there.
+std::vector<Successor> strands_meet_in_plate(const ContactEvent& event, const Strip& strip,
+                                             const Profile& profile, const Topology& topology) {
+  std::vector<Successor> out = strands_meet(event, strip);
+  for (Successor& next : out)
+    for (int j = 0; j < static_cast<int>(next.topology.on.size()); ++j)
+      for (int plate = 1; plate < profile.obstacles.size(); ++plate)
+        for (const auto& [link, s] : {std::pair(event.place, event.s), std::pair(event.other, event.s_other)})
+          if (chain::Seat& seat = next.topology.on[j];
+              seat.strand != 0 && next.s[j] == s && profile.obstacles[plate].curvature() == 0.0 &&
+              !strip.is_line(link) && lies_flat(profile, topology, link, plate))
+            seat.obstacle = seat.flat = plate;
+  return out;
+}
+
 /// Where two touches' forces together are: the part of the way from the first to the second.
 double centre_of_forces(const Profile& profile, int first, int second) {
   const auto force = [&](int joint) { return std::max(profile.contact_at(joint)->force, 0.0); };
@@ -446,12 +462,12 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
         closed = with_touches(skeleton_of(Strip(*closed)).strip.successor(), profile, topology);
         // Beside a line hardly anything parts it from what comes next; between two touches a third is one by itself at first.
         const bool beside_line = next_to_line(event, topology);
-        std::vector<Successor> out = strands_meet(event, strip);
+        std::vector<Successor> out = strands_meet_in_plate(event, strip, profile, topology);
         out.insert(beside_line ? out.begin() : out.end(), *closed);
         if (const auto longer = line_extends(event, topology, strip)) out.insert(out.begin(), *longer);
         return out;
       }
-      return strands_meet(event, strip);
+      return strands_meet_in_plate(event, strip, profile, topology);
   }
   return {};
 }

@@ -6,6 +6,7 @@
 
 #include "dense_samples.hpp"
 #include "end_events.hpp"
+#include "lies_flat.hpp"
 #include "line_pressure.hpp"
 #include "rim_events.hpp"
 #include "strand_line_events.hpp"
@@ -81,31 +82,6 @@ std::optional<Least> dip_beside(const Profile& profile, const Piece& piece, cons
     before = here, here = after;
   }
   return std::nullopt;
-}
-
-/// Beyond its last contact nothing pushes a rod round a cylinder out of the plane of its pull and its tangent: behind a touch of a
-/// plate that tail lies flat in the plate, with neither gap nor curvature there (PHYSICS, "Steady sliding"). So does all that is
-/// free beside a touch of cylinder and plate at once.
-bool lies_flat(const Profile& profile, const Topology& topology, int link, int obstacle) {
-  for (const int joint : {link, link + 1})
-    if (topology.touches_flat(joint) && topology.seat(joint).flat == obstacle) return true;
-  const auto touched = [&](int joint) {
-    return std::any_of(profile.contacts.begin(), profile.contacts.end(), [&](const Contact& c) {
-      return c.joint == joint && c.coupling < 0 && !c.edge && c.obstacle == obstacle;
-    });
-  };
-  const auto flat_line = [&](int line) {
-    return topology.lies_flat(line) && topology.seat(line).flat == obstacle;
-  };
-  if ((flat_line(link - 1) && touched(link + 1)) || (flat_line(link + 1) && touched(link))) return true;
-  constexpr double twisted = 1e-9;  // of the usual moment √T: a tail that carries torsion is not plane
-  const Piece& tail = profile.pieces[link];
-  if (tail.stretch != Stretch::tail || !profile.obstacles[0].slips() || obstacle == 0) return false;
-  const double twist = tail.m.col(0).dot(rod::directors(tail.q.col(0)).col(2));
-  if (std::abs(twist) > twisted * std::max(1.0, std::sqrt(tail.n.col(0).norm()))) return false;
-  return std::any_of(profile.contacts.begin(), profile.contacts.end(), [&](const Contact& c) {
-    return c.obstacle == obstacle && (c.joint == link || c.joint == link + 1);
-  });
 }
 
 /// Does a tail beside this touch lie flat in its obstacle?
