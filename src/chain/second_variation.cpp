@@ -148,6 +148,12 @@ Chain::DraggedVariation Chain::dragged_variation(const VectorXd& x, const Loads&
       held.emplace_back(place[slide_row()], place[numbering.location[j]],
                         -share * joints_[j]->slide(coordinates(x, j)));
   }
+  // The row of a place is a condition of contact, tangency, which holds in all motions: no inertia is in it.
+  std::vector<bool> geometric(static_cast<std::size_t>(size_), false);
+  for (int j = 0; j < joint_count(); ++j)
+    if (numbering.location[j] >= 0) geometric[static_cast<std::size_t>(numbering.location[j])] = true;
+  metric.prune(
+      [&](Eigen::Index row, Eigen::Index, double) { return !geometric[static_cast<std::size_t>(row)]; });
   return {kept(matrix, held), kept(metric, {})};
 }
 

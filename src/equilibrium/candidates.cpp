@@ -4,7 +4,9 @@
 
 #include "candidates.hpp"
 #include "end_events.hpp"
+#include "lies_flat.hpp"
 #include "line_touches.hpp"
+#include "opened_press.hpp"
 #include "plate_successors.hpp"
 #include "strand_line_events.hpp"
 #include "strand_successors.hpp"
@@ -33,9 +35,10 @@ std::vector<double> gap_lengths(double width, double factor, double usual, doubl
   return out;
 }
 
-std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& strip, const Piece& line) {
+std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& strip, const Profile& profile) {
   std::vector<Successor> out;
   const int i = event.place;
+  const Piece& line = profile.pieces[i];
   const double begin = strip.s[i], end = strip.s[i + 1], length = end - begin;
   Strip open = strip;  // the whole line lifts at once
   open.parts[i].kind = Stretch::gap;
@@ -44,6 +47,11 @@ std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& st
   const double low = event.from, high = event.to, width = high - low;
   const bool at_start = low <= begin, at_end = high >= end;
   const bool at_mid = at_start && strip.starts_at_mid(i) && !strip.mid_touch;
+  if (at_start != at_end && pressed_by(profile, strip, at_end ? i + 1 : i)) {
+    for (const double size : gap_lengths(width, gap_beside_touch, 0.05, 0.9 * length))
+      out.push_back(opened_under_press(i, strip, profile, at_end, size));
+    return out;
+  }
   const auto cut = [&](Strip part, int link, double from, double to) {  // a gap [from, to] inside a link
     const bool before = from > part.s[link], after = to < part.s[link + 1];
     if (after) part.split(link, to, Stretch::gap, Stretch::line);
@@ -281,6 +289,21 @@ std::vector<Successor> after_skeleton(const ContactEvent& event, const Profile& 
   return out;
 }
 
+/// Strands that meet where one of them lies flat in a plate, right behind the plate's touch: it stays there.
+std::vector<Successor> strands_meet_in_plate(const ContactEvent& event, const Strip& strip,
+                                             const Profile& profile, const Topology& topology) {
+  std::vector<Successor> out = strands_meet(event, strip);
+  for (Successor& next : out)
+    for (int j = 0; j < static_cast<int>(next.topology.on.size()); ++j)
+      for (int plate = 1; plate < profile.obstacles.size(); ++plate)
+        for (const auto& [link, s] : {std::pair(event.place, event.s), std::pair(event.other, event.s_other)})
+          if (chain::Seat& seat = next.topology.on[j];
+              seat.strand != 0 && next.s[j] == s && profile.obstacles[plate].curvature() == 0.0 &&
+              !strip.is_line(link) && lies_flat(profile, topology, link, plate))
+            seat.obstacle = seat.flat = plate;
+  return out;
+}
+
 /// Where two touches' forces together are: the part of the way from the first to the second.
 double centre_of_forces(const Profile& profile, int first, int second) {
   const auto force = [&](int joint) { return std::max(profile.contact_at(joint)->force, 0.0); };
@@ -372,7 +395,7 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
       if (vanishes(strip, event.place)) return after_length(event.place, strip);
       {
         std::vector<Successor> out = flat_line_lifts(event.place, strip, profile);
-        const auto others = after_pressure(event, strip, profile.pieces[event.place]);
+        const auto others = after_pressure(event, strip, profile);
         out.insert(out.end(), others.begin(), others.end());
         return out;
       }
@@ -381,6 +404,8 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
         if (const auto next = touch_reaches_end(event.place, profile, strip)) return {*next};
         return {end_of_rod(strip)};
       }
+      if (const auto opened = opened_press(profile, topology, event.place); opened && event.redrawn)
+        return {closed_under_press(*opened, strip)};
       if (auto flat = flat_line_begins_or_ends(event.place, profile, strip); !flat.empty()) return flat;
       if (const auto fewer = line_with_fewer_touches(profile, topology, event.place, strip)) return {*fewer};
       if (const auto anew = laid_anew_at(profile, chain::Strands(topology), event.place);
@@ -437,12 +462,12 @@ std::vector<Successor> one_sided(const ContactEvent& event, const Profile& profi
         closed = with_touches(skeleton_of(Strip(*closed)).strip.successor(), profile, topology);
         // Beside a line hardly anything parts it from what comes next; between two touches a third is one by itself at first.
         const bool beside_line = next_to_line(event, topology);
-        std::vector<Successor> out = strands_meet(event, strip);
+        std::vector<Successor> out = strands_meet_in_plate(event, strip, profile, topology);
         out.insert(beside_line ? out.begin() : out.end(), *closed);
         if (const auto longer = line_extends(event, topology, strip)) out.insert(out.begin(), *longer);
         return out;
       }
-      return strands_meet(event, strip);
+      return strands_meet_in_plate(event, strip, profile, topology);
   }
   return {};
 }

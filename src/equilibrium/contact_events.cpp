@@ -6,6 +6,7 @@
 
 #include "dense_samples.hpp"
 #include "end_events.hpp"
+#include "lies_flat.hpp"
 #include "line_pressure.hpp"
 #include "rim_events.hpp"
 #include "strand_line_events.hpp"
@@ -81,31 +82,6 @@ std::optional<Least> dip_beside(const Profile& profile, const Piece& piece, cons
     before = here, here = after;
   }
   return std::nullopt;
-}
-
-/// Beyond its last contact nothing pushes a rod round a cylinder out of the plane of its pull and its tangent: behind a touch of a
-/// plate that tail lies flat in the plate, with neither gap nor curvature there (PHYSICS, "Steady sliding"). So does all that is
-/// free beside a touch of cylinder and plate at once.
-bool lies_flat(const Profile& profile, const Topology& topology, int link, int obstacle) {
-  for (const int joint : {link, link + 1})
-    if (topology.touches_flat(joint) && topology.seat(joint).flat == obstacle) return true;
-  const auto touched = [&](int joint) {
-    return std::any_of(profile.contacts.begin(), profile.contacts.end(), [&](const Contact& c) {
-      return c.joint == joint && c.coupling < 0 && !c.edge && c.obstacle == obstacle;
-    });
-  };
-  const auto flat_line = [&](int line) {
-    return topology.lies_flat(line) && topology.seat(line).flat == obstacle;
-  };
-  if ((flat_line(link - 1) && touched(link + 1)) || (flat_line(link + 1) && touched(link))) return true;
-  constexpr double twisted = 1e-9;  // of the usual moment √T: a tail that carries torsion is not plane
-  const Piece& tail = profile.pieces[link];
-  if (tail.stretch != Stretch::tail || !profile.obstacles[0].slips() || obstacle == 0) return false;
-  const double twist = tail.m.col(0).dot(rod::directors(tail.q.col(0)).col(2));
-  if (std::abs(twist) > twisted * std::max(1.0, std::sqrt(tail.n.col(0).norm()))) return false;
-  return std::any_of(profile.contacts.begin(), profile.contacts.end(), [&](const Contact& c) {
-    return c.obstacle == obstacle && (c.joint == link || c.joint == link + 1);
-  });
 }
 
 /// Does a tail beside this touch lie flat in its obstacle?
@@ -254,6 +230,7 @@ ContactEvent length_event(const Profile& profile, const Topology& topology, cons
   const bool between_touches =
       gap && std::count_if(profile.contacts.begin(), profile.contacts.end(), is_touch) == 2;
   const double stiffest = profile.material.stiffness.maxCoeff() / profile.material.bending_stiffness;
+  const auto opened = opened_press(profile, topology, i);
   // The two ends of a line between free strands share a force, by the curvature there: as two touches of a gap.
   const int line = strands.line_along(i);
   const bool shrinks = line >= 0 && !strands.lines()[line].on_obstacles && line == strands.line_of(i) &&
@@ -265,13 +242,19 @@ ContactEvent length_event(const Profile& profile, const Topology& topology, cons
   });
   const double shortest = piece.stretch == Stretch::tail ? flat_tail ? least_length : shortest_tail * stiffest
                           : shrinks                      ? least_between_touches
+                          : opened                       ? least_lever
                           : topology.beside_strand(i)    ? least_beside_strand
                           : between_touches              ? least_between_touches
                           : piece.stretch == Stretch::line ? least_under(profile, i)
                                                            : least_length;
   const double least = shortest * profile.unit_length;
+  constexpr double shorter = 0.6;
+  if (opened && opened->gap == i) {
+    ContactEvent event{Kind::length, i, part_of_carried(profile, *opened) - shorter, piece.s(0)};
+    event.redrawn = true;
+    return event;
+  }
   if (const auto part = part_of_carried(profile, strands, i); part && !carried) {
-    constexpr double shorter = 0.6;
     ContactEvent event{Kind::length, i, *part - shorter, piece.s(0)};
     event.redrawn = true;
     return event;
@@ -285,7 +268,8 @@ ContactEvent length_event(const Profile& profile, const Topology& topology, cons
 /// A force F off the obstacle on a line that is pressed by p lifts it over a length 3F/4p to both sides, in which the moment
 /// changes by 3F²/32p: the line carries that, as it carries short gaps, up to F²/p = `carried_under_strand`.
 ContactEvent reaction_event(const Profile& profile, const Contact& c) {
-  const double pressure = profile.pieces[c.joint].p(0), reaction = *c.reaction;
+  // A strand that is pressed to its obstacle does not lift, whatever becomes of the pressure beside it.
+  const double reaction = *c.reaction, pressure = reaction < 0.0 ? profile.pieces[c.joint].p(0) : 1.0;
   ContactEvent event{Kind::reaction, c.joint,
                      1.0 + reaction * std::abs(reaction) / (pressure * carried_under_strand), c.s};
   event.redrawn = true;
@@ -410,7 +394,7 @@ std::vector<ContactEvent> contact_events(const Profile& profile, const Topology&
     if (piece.stretch == Stretch::line && presses_at_ends_only(profile, piece)) {
       events.push_back({Kind::pressure, i, far, piece.s(0)});
     } else if (piece.stretch == Stretch::line) {
-      const auto found = pressure_and_suction(piece, i, at_mid);
+      const auto found = pressure_and_suction(piece, i, at_mid, presses_on(profile, i));
       events.insert(events.end(), found.begin(), found.end());
     }
     events.push_back(length_event(profile, topology, strands, i));

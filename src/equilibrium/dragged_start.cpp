@@ -12,6 +12,7 @@
 #include "friction_couple.hpp"
 #include "harvest.hpp"
 #include "stretched_drag.hpp"
+#include "turns_on_plate.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/equilibrium/search.hpp"
 #include "windlass/rod/capstan.hpp"
@@ -292,6 +293,11 @@ Layout pressed_below(const chain::Profile& shape, double crossing, const scene::
   return out;
 }
 
+/// Do the turns of this flat coil lie on each other?
+bool laps(const chain::Profile& shape) {
+  return shape.pieces.size() == 3 && shape.pieces[1].length() > 2.0 * M_PI;
+}
+
 /// A coil so thick that its tails pass each other, from a thin one on the plate.
 std::optional<Started> crossing_on_plate(const scene::Scene& scene, const std::vector<std::string>& keys,
                                          std::string& failure) {
@@ -299,6 +305,7 @@ std::optional<Started> crossing_on_plate(const scene::Scene& scene, const std::v
   thin.self_contact = false;
   const Started flat = flat_on_plate(thin, keys);
   const chain::Profile shape = flat.problem->profile(flat.x, flat.p);
+  if (laps(shape)) return failure = "the turns of the flat coil lie on each other", std::nullopt;
   const std::optional<double> crossing = tails_cross(shape);
   if (crossing && (scene.friction_arm() > 0.0 || !scene.free_of_torsion())) {
     failure =
@@ -309,13 +316,11 @@ std::optional<Started> crossing_on_plate(const scene::Scene& scene, const std::v
   if (!crossing) {
     auto problem =
         std::make_shared<RodProblem>(scene, true, flat.problem->topology(), flat.problem->meshes(), keys);
-    return Started{problem, flat.x, problem->parameters(), flat.newton_iterations};
+    const Vector p = problem->parameters();
+    if (contacts_hold(*problem, flat.x, p)) return Started{problem, flat.x, p, flat.newton_iterations};
+    return failure = "the flat coil passes through itself", std::nullopt;
   }
-  if (shape.pieces.size() != 3 || shape.pieces[1].s.tail<1>()(0) > M_PI) {  // on touches, or on itself
-    failure = "its turns would lie on each other, which is not built for a coil on a plate";
-    if (shape.pieces.size() != 3) failure = "it has no line contact to start from";
-    return std::nullopt;
-  }
+  if (shape.pieces.size() != 3) return failure = "it has no line contact to start from", std::nullopt;
   failure = "pressed apart where they cross, the tails of the flat coil were not balanced";
   for (double radius = std::min(0.01, scene.rod_radius); radius > 1e-5; radius *= 0.3) {
     scene::Scene slender = scene;
@@ -373,12 +378,8 @@ std::vector<Started> dragged_between_plates(const scene::Scene& scene, const std
 
 }  // namespace
 
-std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector<std::string>& keys,
+std::vector<Started> left_the_plate(const scene::Scene& scene, const std::vector<std::string>& keys,
                                     std::string& searched) {
-  if (scene.second_plate) return dragged_between_plates(scene, keys, searched);
-  if (scene.friction_arm() > 0.0) return dragged_with_couple(scene, keys, searched);
-  if (scene.ends.guided()) return dragged_between_sliders(scene, keys, searched);
-  if (scene.rod.extensible) return dragged_with_stretch(scene, keys, searched);
   constexpr double flat = 1e-6;  // [ρ]
   // Next to nothing; with more friction the plate holds the tail nearer to the coil, so that short tails need more.
   constexpr double least = 1e-3, next = 2.0, most = 0.1;
@@ -401,7 +402,7 @@ std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector
     ++followed;
     continuation::Options options;
     options.target = options.upper = 2.0 * goal;  // beyond it a branch may turn and come back
-    options.lower = 0.0;
+    options.lower = 0.5 * start->p(0);            // one that comes back past its start leads nowhere
     options.parameter_scale = goal;
     options.detect_branch_points = false;
     options.newton_tolerance = 1e-9;
@@ -429,6 +430,15 @@ std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector
     searched += fmt::format("; {} would touch the plate beyond plate.outer_radius = {:.6g}", beyond,
                             scene.plate->outer_radius);
   return out;
+}
+
+std::vector<Started> dragged_states(const scene::Scene& scene, const std::vector<std::string>& keys,
+                                    std::string& searched) {
+  if (scene.second_plate) return dragged_between_plates(scene, keys, searched);
+  if (scene.friction_arm() > 0.0) return dragged_with_couple(scene, keys, searched);
+  if (scene.ends.guided()) return dragged_between_sliders(scene, keys, searched);
+  if (scene.rod.extensible) return dragged_with_stretch(scene, keys, searched);
+  return turns_press(scene) ? turns_on_plate(scene, keys, searched) : left_the_plate(scene, keys, searched);
 }
 
 }  // namespace windlass::equilibrium

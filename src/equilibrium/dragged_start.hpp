@@ -28,6 +28,11 @@ std::optional<Started> under_the_plate(const Started& still, const scene::Scene&
 /// full ones elsewhere), which nothing without friction leads to: from the flat coil bent down, on touches of the cylinder at its outermost contacts and in the middle.
 std::vector<Started> hanging_arches(const scene::Scene& scene, const std::vector<std::string>& keys);
 
+/// States that the frictionless ones of this tension lead to as the friction grows, of rods on one plate under dead pulls.
+/// @param searched  for people: what was followed
+std::vector<Started> left_the_plate(const scene::Scene& scene, const std::vector<std::string>& keys,
+                                    std::string& searched);
+
 /// States that have left the plate but for some places, at the scene's friction: those that the states without
 /// friction lead to as the friction grows from next to nothing, through folds.
 /// @param searched  for people: what was followed

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dense_samples.hpp"
+#include "opened_press.hpp"
 
 namespace windlass::equilibrium {
 
@@ -81,7 +82,8 @@ bool would_meet(const ContactEvent& a, const ContactEvent& b) {
 /// Positive as long as the line carries the gap that has opened in it: one less the gap's length over that which is carried.
 /// Two that would meet are carried until the pressure between them is gone: then they are one.
 /// @param dips  of the whole line, past the mid-point of a half chain too
-ContactEvent suction(const Dense& line, const ContactEvent& pressure, const std::vector<ContactEvent>& dips) {
+ContactEvent suction(const Dense& line, const ContactEvent& pressure, const std::vector<ContactEvent>& dips,
+                     const Presses& presses) {
   ContactEvent event = pressure;
   event.kind = Kind::suction;
   event.passes = false;
@@ -92,7 +94,9 @@ ContactEvent suction(const Dense& line, const ContactEvent& pressure, const std:
   const double begin = line.s(0), end = line.s(line.s.size() - 1);
   const bool mirrored = event.from < begin;  // about the mid-point of a half chain
   if (event.to >= end || (!mirrored && event.from <= begin)) {
-    event.value = 1.0 - std::cbrt(pull * width * width / carried_beside_touch);
+    const double force = event.to >= end ? presses.end : presses.begin;
+    event.value = 1.0 - (force > 0.0 ? part_beside_press(pull, width, force)
+                                     : std::cbrt(pull * width * width / carried_beside_touch));
     return event;
   }
   for (const ContactEvent& other : dips) {
@@ -130,13 +134,15 @@ std::vector<ContactEvent> on_both_halves(std::vector<ContactEvent> dips, double 
 
 }  // namespace
 
-std::array<ContactEvent, 2> pressure_and_suction(const Piece& line, int link, bool from_mid) {
+std::array<ContactEvent, 2> pressure_and_suction(const Piece& line, int link, bool from_mid,
+                                                 const Presses& presses) {
   const Dense dense = dense_samples(line, line.p);
   const std::vector<ContactEvent> pressures = dips(line, dense, link, from_mid);
   const std::vector<ContactEvent> all = from_mid ? on_both_halves(pressures, line.s(0)) : pressures;
-  ContactEvent most = suction(dense, pressures.front(), all);
+  ContactEvent most = suction(dense, pressures.front(), all, presses);
   for (std::size_t k = 1; k < pressures.size(); ++k)
-    if (const ContactEvent other = suction(dense, pressures[k], all); other.value < most.value) most = other;
+    if (const ContactEvent other = suction(dense, pressures[k], all, presses); other.value < most.value)
+      most = other;
   return {pressures.front(), most};
 }
 

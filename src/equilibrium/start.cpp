@@ -104,12 +104,19 @@ std::vector<double> relaxing_pulls(const scene::Scene& scene) {
   return {std::clamp(scene.load.tension, loose, tight), 1.0, 1.5, 0.6};
 }
 
-/// The first state that has left the plate; the flat coil, which the automatic rung starts with, where there is none.
+/// The flat coil, which the automatic rung starts with; where that is not asked for, or there is none, the first state that has left
+/// the plate.
 Started dragged_first(const scene::Scene& scene, const std::vector<std::string>& keys) {
-  if (scene.model.kind != scene::ModelKind::kirchhoff) return coil_on_plate(scene, keys);
-  std::string searched;
+  std::string none, searched;
+  if (scene.model.kind != scene::ModelKind::kirchhoff) {
+    try {
+      return coil_on_plate(scene, keys);
+    } catch (const NoEquilibrium& flat) {
+      none = std::string(flat.what()) + "; ";
+    }
+  }
   const std::vector<Started> states = dragged_states(scene, keys, searched);
-  if (states.empty()) throw NoEquilibrium("no state that has left the plate was found: " + searched);
+  if (states.empty()) throw NoEquilibrium(none + "no state that has left the plate was found: " + searched);
   return states.front();
 }
 

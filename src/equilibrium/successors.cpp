@@ -114,10 +114,13 @@ bool is_symmetric(const Successor& next, const Profile& profile) {
   return symmetric(next.topology, next.s, profile);
 }
 
-/// Does a strand press where a line leaves the plate? No joint is that.
-bool presses_where_line_lifts_off(const Topology& topology) {
-  for (int j = 1; j < static_cast<int>(topology.on.size()); ++j)
-    if (topology.on[j].strand != 0 && topology.lies_flat(j - 1) != topology.lies_flat(j)) return true;
+/// Does a strand press right where a line ends, or leaves the plate? No joint is that.
+bool presses_at_an_end(const Topology& topology) {
+  const auto line = [&](int link) { return topology.stretches[link] == Stretch::line; };
+  for (int j = 1; j < static_cast<int>(topology.stretches.size()); ++j)
+    if (topology.seat(j).strand != 0 &&
+        (line(j - 1) != line(j) || topology.lies_flat(j - 1) != topology.lies_flat(j)))
+      return true;
   return false;
 }
 
@@ -140,7 +143,7 @@ std::vector<Successor> successors(const ContactEvent& event, const Profile& prof
     measure_parts(strip);
     next.topology = strip.successor().topology;
   }
-  std::erase_if(out, [](const Successor& next) { return presses_where_line_lifts_off(next.topology); });
+  std::erase_if(out, [](const Successor& next) { return presses_at_an_end(next.topology); });
   return out;
 }
 

@@ -218,6 +218,42 @@ BOOST_AUTO_TEST_CASE(a_thick_coil_is_followed_until_its_strands_part) {
 
 namespace {
 
+/// A thick coil of several turns on its plate: states, their forces and the certificate of the first.
+nlohmann::json turns_on_plate(const std::vector<std::string>& settings) {
+  const TemporaryFolder folder;
+  const std::string run = (folder / "run").string();
+  std::vector<std::string> command = sliding("solve", settings, "capstan-2pi-plate-thick");
+  command.insert(command.end(), {"--json", "--out", run});
+  const Outcome outcome = run_program(command, folder.path());
+  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  const Outcome verified = run_program({"verify", run}, folder.path());
+  BOOST_TEST(verified.status == 0, verified.out);
+  return nlohmann::json::parse(outcome.out);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(thick_turns_lie_beside_each_other_on_the_plate) {
+  // Flat, these coils would lie on themselves over more than a turn. 3π: a pull and R_tot of a state without lines; 4π: a line opens
+  // beside a strand that presses on it, on the way to this friction.
+  const std::vector<std::tuple<const char*, const char*, const char*>> cases = {
+      {"load.angle=3 pi", "rod.length=40", "load.tension=1"},
+      {"load.angle=4 pi", "rod.length=46", "load.tension=0.7"}};
+  for (const auto& [angle, length, tension] : cases) {
+    const nlohmann::json state = turns_on_plate({angle, length, tension});
+    BOOST_TEST_CONTEXT(angle) {
+      const double drag = state["F0"].get<double>();
+      BOOST_TEST(std::abs(drag / (0.32 * state["R_tot"].get<double>()) - 1.0) < 1e-10);
+      BOOST_TEST(std::abs(state["plate"]["force"].get<double>() / drag - 1.0) < 1e-10);
+      BOOST_TEST(state["self_distance"].get<double>() > (4.0 / 7.0) * (1.0 - 1e-8));
+      BOOST_TEST(state["stability"]["index"] == 0);
+      BOOST_TEST(state["z_span"].get<double>() > 4.0 / 7.0);
+    }
+  }
+}
+
+namespace {
+
 /// Between clamps and under a pull that leaves it on isolated touches.
 std::vector<std::string> on_touches(std::vector<std::string> more) {
   std::vector<std::string> out = {"rod.length=22.283185307179586", "load.tension=0.3", "ends.kind=clamped",

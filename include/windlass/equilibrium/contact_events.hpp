@@ -46,6 +46,9 @@ inline constexpr double least_between_touches = 5e-3;
 /// contacts of one surface. It gives way this early, in the same units.
 inline constexpr double least_beside_strand = 1e-5;
 
+/// Of such an arc the lever of a gap beside a strand that presses (opened_press.hpp), which goes with the cube of that gap.
+inline constexpr double least_lever = 1e-6;
+
 /// A tail gives way this early, in the same units: its moment, of its own size, has rounding errors of its frames over ℓ.
 inline constexpr double shortest_tail = 1e-4;
 
