@@ -128,17 +128,22 @@ bool RodProblem::coupled() const {
   return base_.arm != 0.0 || (varies("rod.radius") && scene_.friction_has_couple());
 }
 
+bool RodProblem::asks_for(double Loads::*field) const {
+  return base_.*field != 0.0 || std::find(fields_.begin(), fields_.end(), field) != fields_.end();
+}
+
+bool RodProblem::layered() const {
+  return coupled() || (rod_.travel != chain::Travel::none && asks_for(&Loads::compliance));
+}
+
 const char* RodProblem::missing_on(const Topology& topology) const {
-  const auto asked = [&](double Loads::*field) {
-    return base_.*field != 0.0 || std::find(fields_.begin(), fields_.end(), field) != fields_.end();
-  };
   if (coupled() && !(spatial_ && carries_couple(topology))) return "cylinder.friction_couple";
   for (int j = 0; j < static_cast<int>(topology.on.size()); ++j)
     if (obstacle::plate_at(scene_, topology.seat(j).flat) == 2 ||
         obstacle::plate_at(scene_, topology.seat(j).stop) == 2)
       return "plate.2.height";
   if (varies("rod.radius") && touches_rim(rod_, topology)) return "plate.outer_radius";
-  if (rod_.travel != chain::Travel::none && asked(&Loads::compliance) &&
+  if (rod_.travel != chain::Travel::none && asks_for(&Loads::compliance) &&
       !carries_stretch(topology, rod_.travel))
     return "rod.extensible";
   return nullptr;
@@ -159,7 +164,7 @@ void RodProblem::rebuild() {
             ? "plate.2.height: the second plate and the cylinder cannot hold the rod at one place"
         : key == std::string_view("plate.outer_radius") ? rim_not_thickened()
                                                         : couple_not_carried());
-  rod_.coupled = coupled();
+  rod_.coupled = layered();
   chain_ = chain::build_chain(rod_, topology_, meshes_);
   chain_->let_slide(slides_);
   finer_.reset();

@@ -160,6 +160,8 @@ struct Surroundings {
   const Stiffness& law;
   const std::vector<Shape>& shapes;
   const Shape& below;
+  bool layered() const { return has_layers(law, below); }
+  double width(const Section& x) const { return layer_width(x, law, below); }
   double pressure(const Section& x) const {
     if (below.wall()) return plane_pressure(x, law, *below.wall());
     return law.stretches() ? stretched_surface_pressure(x, law) : surface_pressure(x, law.K[0]);
@@ -174,9 +176,9 @@ void check_sample(const ArcRecord& arc, Eigen::Index i, const Surroundings& arou
   found.pressures.emplace_back(arc.s[i], pressure);
   found.off_surface.add(std::abs(Gap(stored, around.below).value));
   found.off_surface.add(std::abs(Gap(stored, around.below).rate));
-  const double off = around.below.has_couple() ? taken_by_couple(stored, around.law.K[0]) -
-                                                     pressure * around.below.lever(stored.r, tangent(stored))
-                                               : pressure - around.pressure(stored);
+  const double off = around.layered()
+                         ? taken_by_friction(stored, around.law) - pressure * around.width(stored)
+                         : pressure - around.pressure(stored);
   found.pressure.add(std::abs(off) / scales.force);
 }
 
@@ -186,14 +188,13 @@ void look_along(const std::vector<Section>& sections, double begin, double h, Ar
   for (std::size_t k = 1; k < sections.size(); ++k) {
     if (kind == ArcKind::line) {
       found.off_surface.add(std::abs(Gap(sections[k], around.below).value));
-      const double w =
-          around.below.has_couple() ? around.below.lever(sections[k].r, tangent(sections[k])) : 0.0;
+      const double w = around.layered() ? around.width(sections[k]) : 0.0;
       const bool between = k + 1 < sections.size();  // at the samples w may be too small
-      if (!around.below.has_couple())
+      if (!around.layered())
         found.pressures.emplace_back(begin + static_cast<double>(k) * h, around.pressure(sections[k]));
       else if (between && w != 0.0)
         found.pressures.emplace_back(begin + static_cast<double>(k) * h,
-                                     taken_by_couple(sections[k], around.law.K[0]) / w);
+                                     taken_by_friction(sections[k], around.law) / w);
     }
     for (const Shape& shape : around.shapes) {
       if (kind != ArcKind::free && &shape == &around.below) continue;
@@ -213,7 +214,7 @@ bool close(const Section& a, const Section& b, const Scales& scales) {
          0.1 * tight;
 }
 
-/// The pressure of a line whose friction has a moment, as stored, about the piece from one sample to the next.
+/// The pressure of a line whose pressure has layers, as stored, about the piece from one sample to the next.
 void prescribe(RodFlow& flow, const ArcRecord& arc, Eigen::Index i) {
   constexpr Eigen::Index most = 6;  // samples; more swing between those of unlike elements
   const Eigen::Index count = std::min<Eigen::Index>(most, arc.s.size()),
@@ -224,13 +225,12 @@ void prescribe(RodFlow& flow, const ArcRecord& arc, Eigen::Index i) {
   flow.prescribe(places, pressures);
 }
 
-/// From one sample to the next of a line whose friction has a moment: the way that its pressure flows.
+/// From one sample to the next of a line whose pressure has layers: the way that its pressure flows.
 double integrate_coupled(RodFlow& flow, const ArcRecord& arc, Eigen::Index i, const Surroundings& around,
                          const Scales& scales, Collected& found) {
-  const auto lever = [&](const Section& x) { return around.below.lever(x.r, tangent(x)); };
   const Section left = sample(arc, i), right = sample(arc, i + 1);
-  const bool backward = lever(left) > 0.0 && lever(right) > 0.0,
-             forward = lever(left) < 0.0 && lever(right) < 0.0;
+  const bool backward = around.width(left) > 0.0 && around.width(right) > 0.0,
+             forward = around.width(left) < 0.0 && around.width(right) < 0.0;
   if (backward || forward)
     flow.prescribe({}, {});
   else
@@ -257,7 +257,7 @@ double integrate_piece(RodFlow& flow, const ArcRecord& arc, Eigen::Index i, cons
     return arc.kind == ArcKind::line ? 0.5 * (arc.p[i] + arc.p[i + 1]) * length : 0.0;
   }
   std::vector<Section> sections = {start};
-  if (arc.kind == ArcKind::line && around.below.has_couple())
+  if (arc.kind == ArcKind::line && around.layered())
     return integrate_coupled(flow, arc, i, around, scales, found);
   // plain integration, the cheap and direct way; after it has lost e^20 there is no point in trying
   if (growth * length < 20.0) {
@@ -313,9 +313,9 @@ double check_arcs(const Solution& solution, const scene::Scene& scene, const Sca
     for (Eigen::Index i = 0; i < arc.s.size(); ++i) norm.add(std::abs(arc.q.col(i).norm() - 1.0));
     const Shape* below = arc.kind == ArcKind::line ? shape_of(shapes, arc.obstacle) : nullptr;
     const bool flat = below && on_plate(arc, scene);
-    // A line on nothing; or with what this integration has not: a stretch by the friction along it.
+    // A line on nothing; or with what this integration has not: beside a plate, a stretch by the friction along it.
     const bool stretched =
-        below && law.stretches() && below->drags() && !(flat && std::abs(solution.travel_rate) < tight);
+        below && law.stretches() && below->drags() && flat && std::abs(solution.travel_rate) >= tight;
     if (arc.kind == ArcKind::line && (!below || (flat && below->has_couple()) || stretched))
       found.off_surface.add(NAN);
     const Shape pressed = !below ? none : flat ? below->beside_plate() : *below;
