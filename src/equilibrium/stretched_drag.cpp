@@ -19,8 +19,9 @@ bool carries_stretch(const Topology& topology, chain::Travel travel) {
     pressed = pressed || (i > 0 && topology.lies_flat(i - 1) && topology.lies_flat(i));
     if (topology.lies_flat(i)) continue;
     tilted = true;
-    const bool alone = topology.obstacle(i) == 0 && !(topology.half && i == 0) && !topology.beside_strand(i) &&
-                       topology.seat(i).stop < 0 && topology.seat(i + 1).stop < 0;
+    const bool alone = topology.obstacle(i) == 0 && !(topology.half && i == 0) &&
+                       !topology.beside_strand(i) && topology.seat(i).stop < 0 &&
+                       topology.seat(i + 1).stop < 0;
     if (!alone) return false;
   }
   if (pressed || (tilted && flat)) return false;
@@ -30,8 +31,10 @@ bool carries_stretch(const Topology& topology, chain::Travel travel) {
 }
 
 std::string stretch_not_carried() {
-  return "rod.extensible: a rod that stretches is dragged at isolated touches, along lines of the cylinder, or "
-         "along lines that lie on the plate, too; not along lines that leave the plate, nor along lines of a rod "
+  return "rod.extensible: a rod that stretches is dragged at isolated touches, along lines of the cylinder, "
+         "or "
+         "along lines that lie on the plate, too; not along lines that leave the plate, nor along lines of a "
+         "rod "
          "that runs along itself: false leaves the stretch out";
 }
 

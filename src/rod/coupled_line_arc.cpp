@@ -64,7 +64,6 @@ void CoupledLineArc::look(const ArcPoint& at, State& out) const {
   for (int k = 0; k < count; ++k)
     out.at[k] = LayeredSection::at(rod_, friction(at), out.q(0, k), out.slope.col(k), out.n.col(k));
   out.tilt.assign(elements() + 1, 0.0);
-  if (at.friction * (at.arm + at.compliance) == 0.0) return;  // no layers
   for (int e = 0; e <= elements(); ++e) {
     double stretch = 0.0;  // of the elements that meet there
     const int sides = e > 0 && e < elements() ? 2 : 1;
@@ -72,7 +71,10 @@ void CoupledLineArc::look(const ArcPoint& at, State& out) const {
       if (e > 0) stretch += at_end_(g) * out.at[(e - 1) * m + g].stretch.value / sides;
       if (e < elements()) stretch += at_start_(g) * out.at[e * m + g].stretch.value / sides;
     }
-    out.tilt[e] = std::sin(node(at, e * m)[0]) - at.travel * stretch;
+    const double psi = node(at, e * m)[0], c = std::cos(psi), speed = at.travel * stretch;
+    const double along =
+        (std::sin(psi) - speed) / std::sqrt(1.0 - 2.0 * speed * std::sin(psi) + speed * speed);
+    out.tilt[e] = at.friction * along * (at.arm + at.compliance * rod_.bending_stiffness * c * c);
   }
 }
 
@@ -209,8 +211,8 @@ double CoupledLineArc::energy(const ArcPoint& at) const {
 
 std::pair<double, double> CoupledLineArc::layers(const ArcPoint& at) const {
   const State state = evaluate(at);
-  return {std::max(-end_section(at, state, true).lever.value, 0.0),
-          std::max(end_section(at, state, false).lever.value, 0.0)};
+  return {flows_in_at_start(state) ? -end_section(at, state, true).lever.value : 0.0,
+          flows_in_at_end(state) ? end_section(at, state, false).lever.value : 0.0};
 }
 
 bvp::ArcSamples CoupledLineArc::sample(const ArcPoint& at) const {
@@ -248,9 +250,9 @@ bvp::ArcSamples CoupledLineArc::sample(const ArcPoint& at) const {
     moved = out.displacement.col((e + 1) * m);
   }
   for (Eigen::Index k = 0; k < count; ++k)
-    out.lever(k) = LayeredSection::with_momentum(rod_, friction(at), out.q(0, k), out.momentum.col(k),
-                                                 out.force.col(k))
-                       .lever.value;
+    out.lever(k) =
+        LayeredSection::with_momentum(rod_, friction(at), out.q(0, k), out.momentum.col(k), out.force.col(k))
+            .lever.value;
   for (int e = 0; e <= last; ++e)  // where elements end p is what flows there
     if (const double w = out.lever(e * m); w != 0.0) out.pressure(e * m) = state.flux(e) / w;
   return out;

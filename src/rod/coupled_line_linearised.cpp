@@ -168,8 +168,7 @@ void CoupledLineArc::balance_rows(const ArcPoint& at, const State& state, const 
   matrix_ = all;
 }
 
-void CoupledLineArc::end_rows(const ArcPoint& at, const State& state, const Rows& n,
-                              const Rows& flux) const {
+void CoupledLineArc::end_rows(const ArcPoint& at, const State& state, const Rows& n, const Rows& flux) const {
   const int inner = interior_tangent(), columns = inner + ends();
   for (const bool start : {true, false}) {
     const double sign = start ? -1.0 : 1.0;

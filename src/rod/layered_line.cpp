@@ -13,9 +13,12 @@ struct Variables {
 };
 
 Variables of_section(const Friction& friction, double psi, double bend, double twist, const Vector2d& n) {
-  return {Number::variable(psi, LayeredSection::psi),      Number::variable(bend, LayeredSection::bend),
-          Number::variable(twist, LayeredSection::twist),  Number::variable(n(0), LayeredSection::around),
-          Number::variable(n(1), LayeredSection::axial),   Number::variable(friction.travel, LayeredSection::travel)};
+  return {Number::variable(psi, LayeredSection::psi),
+          Number::variable(bend, LayeredSection::bend),
+          Number::variable(twist, LayeredSection::twist),
+          Number::variable(n(0), LayeredSection::around),
+          Number::variable(n(1), LayeredSection::axial),
+          Number::variable(friction.travel, LayeredSection::travel)};
 }
 
 /// All that depends on (ψ, ψ', m₃, n, ω) alone.
@@ -42,7 +45,6 @@ void fill(const SurfaceDensity& rod, const Friction& friction, const Variables& 
   const Number d_around = -speed * c / size, d_axial = (1.0 - speed * s) / size, d_along = (s - speed) / size,
                d_across = c / size;
   out.stretch = stretch;
-  out.slip_along = d_along;
   out.normal = x.bend * f;
   out.pressure = stretch * c * hoop - turn * f - x.bend * x.bend * f_psi;
   out.lever = mu * d_along * (r + k * b * c2) / whole;
@@ -50,7 +52,8 @@ void fill(const SurfaceDensity& rod, const Friction& friction, const Variables& 
   out.across = r * mu * d_across;
   // ∂f/∂n_a, ∂f/∂n_z, ∂f/∂m₃, by what friction changes of these: −α = −ψ' Σ.
   const Number by_whole = h / (whole * whole), tilted = k * b * c2;
-  const Number by_around = -tilted * s / whole - by_whole * k * c, by_axial = tilted * c / whole - by_whole * k * s,
+  const Number by_around = -tilted * s / whole - by_whole * k * c,
+               by_axial = tilted * c / whole - by_whole * k * s,
                by_moment = (1.0 + tilted * s * s) / whole + by_whole * k * s * c;
   out.share = x.bend * (by_around * out.drag[0] + by_axial * out.drag[1] + by_moment * out.across);
   out.momenta[0] = b * x.bend, out.momenta[1] = m3;

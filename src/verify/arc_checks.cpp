@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "checks.hpp"
+#include "slaved_pressure.hpp"
 #include "windlass/verify/shadow.hpp"
 
 namespace windlass::verify {
@@ -188,13 +189,8 @@ void look_along(const std::vector<Section>& sections, double begin, double h, Ar
   for (std::size_t k = 1; k < sections.size(); ++k) {
     if (kind == ArcKind::line) {
       found.off_surface.add(std::abs(Gap(sections[k], around.below).value));
-      const double w = around.layered() ? around.width(sections[k]) : 0.0;
-      const bool between = k + 1 < sections.size();  // at the samples w may be too small
       if (!around.layered())
         found.pressures.emplace_back(begin + static_cast<double>(k) * h, around.pressure(sections[k]));
-      else if (between && w != 0.0)
-        found.pressures.emplace_back(begin + static_cast<double>(k) * h,
-                                     taken_by_friction(sections[k], around.law) / w);
     }
     for (const Shape& shape : around.shapes) {
       if (kind != ArcKind::free && &shape == &around.below) continue;
@@ -214,37 +210,43 @@ bool close(const Section& a, const Section& b, const Scales& scales) {
          0.1 * tight;
 }
 
-/// The pressure of a line whose pressure has layers, as stored, about the piece from one sample to the next.
-void prescribe(RodFlow& flow, const ArcRecord& arc, Eigen::Index i) {
-  constexpr Eigen::Index most = 6;  // samples; more swing between those of unlike elements
-  const Eigen::Index count = std::min<Eigen::Index>(most, arc.s.size()),
-                     first = std::clamp<Eigen::Index>(i - count / 2 + 1, 0, arc.s.size() - count);
-  Eigen::VectorXd places(count), pressures(count);
-  for (Eigen::Index k = 0; k < count; ++k)
-    places(k) = arc.s[first + k] - arc.s[i], pressures(k) = arc.p[first + k];
-  flow.prescribe(places, pressures);
+/// Is the layer of a piece's pressure short beside it, or is there none of one direction?
+bool is_slaved(double left, double right, double length) {
+  constexpr double many = 30.0;
+  return left * right <= 0.0 || length > many * std::min(std::abs(left), std::abs(right));
 }
 
-/// From one sample to the next of a line whose pressure has layers: the way that its pressure flows.
-double integrate_coupled(RodFlow& flow, const ArcRecord& arc, Eigen::Index i, const Surroundings& around,
+/// From one sample to the next of a line whose pressure has layers: the way that it flows.
+double integrate_layered(RodFlow& flow, const ArcRecord& arc, Eigen::Index i, const Surroundings& around,
                          const Scales& scales, Collected& found) {
   const Section left = sample(arc, i), right = sample(arc, i + 1);
-  const bool backward = around.width(left) > 0.0 && around.width(right) > 0.0,
-             forward = around.width(left) < 0.0 && around.width(right) < 0.0;
-  if (backward || forward)
-    flow.prescribe({}, {});
-  else
-    prescribe(flow, arc, i);
-  const double length = arc.s[i + 1] - arc.s[i];
+  const double w = around.width(right), length = arc.s[i + 1] - arc.s[i];
+  const bool backward = w > 0.0;
   const Section &start = backward ? right : left, &goal = backward ? left : right;
-  flow.restart(start, backward);
   const int looks = looks_along(scales.moment / std::sqrt(around.law.K[0]) * length);
-  std::vector<Section> sections = {start};
-  for (int k = 1; k <= looks; ++k) sections.push_back(flow.advance(k == looks ? length : k * length / looks));
-  compare(sections.back(), goal, scales, found);
-  if (backward) std::reverse(sections.begin(), sections.end());
-  look_along(sections, arc.s[i], length / looks, arc.kind, around, found);
-  return std::abs(flow.contact_force());
+  SlavedPiece piece;
+  if (is_slaved(around.width(left), w, length)) {
+    piece = find_slaved(flow, around.law, around.below, start, length, 0.5 * (arc.p[i] + arc.p[i + 1]),
+                        backward, looks);
+    if (!piece.converged) found.position.add(NAN);
+  } else {
+    flow.restart(start, backward);
+    piece.stations = {start};
+    for (int k = 1; k <= looks; ++k)
+      piece.stations.push_back(flow.advance(k == looks ? length : k * length / looks));
+    for (const Section& x : piece.stations)
+      piece.pressures.push_back(taken_by_friction(x, around.law) / around.width(x));
+    piece.contact_force = std::abs(flow.contact_force());
+  }
+  compare(piece.stations.back(), goal, scales, found);
+  if (backward) {
+    std::reverse(piece.stations.begin(), piece.stations.end());
+    std::reverse(piece.pressures.begin(), piece.pressures.end());
+  }
+  for (int k = 1; k < looks; ++k)
+    found.pressures.emplace_back(arc.s[i] + k * length / looks, piece.pressures[static_cast<std::size_t>(k)]);
+  look_along(piece.stations, arc.s[i], length / looks, arc.kind, around, found);
+  return piece.contact_force;
 }
 
 /// Integrates from one sample to the next. @return the contact force on the way
@@ -258,7 +260,7 @@ double integrate_piece(RodFlow& flow, const ArcRecord& arc, Eigen::Index i, cons
   }
   std::vector<Section> sections = {start};
   if (arc.kind == ArcKind::line && around.layered())
-    return integrate_coupled(flow, arc, i, around, scales, found);
+    return integrate_layered(flow, arc, i, around, scales, found);
   // plain integration, the cheap and direct way; after it has lost e^20 there is no point in trying
   if (growth * length < 20.0) {
     flow.restart(start);

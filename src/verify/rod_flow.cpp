@@ -90,8 +90,7 @@ double taken_by_friction(const Section& section, const Stiffness& stiffness) {
   const Vector3d N(section.r.x(), section.r.y(), 0.0), t = tangent(section);
   const double s = t.z(), c = t.dot(Vector3d::UnitZ().cross(N)), turn = section.m.dot(N) / B;
   const double a = section.m.dot(t) - 3.0 * B * stretch * s * c;
-  const double stretch1 =
-      -k * turn * (a * c * c + section.n.dot(t.cross(N))) / (1.0 + k * B * c * c * c * c);
+  const double stretch1 = -k * turn * (a * c * c + section.n.dot(t.cross(N))) / (1.0 + k * B * c * c * c * c);
   return (turn * a + B * stretch1 * c * c) / stretch - section.n.dot(N);
 }
 

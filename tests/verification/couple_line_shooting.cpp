@@ -28,7 +28,9 @@ struct LineOracle {
   const scene::Scene& scene;
   static constexpr int size = 15;
 
-  double stretch(const Vector3d& n, const Vector3d& t) const { return 1.0 + scene.rod.compliance() * n.dot(t); }
+  double stretch(const Vector3d& n, const Vector3d& t) const {
+    return 1.0 + scene.rod.compliance() * n.dot(t);
+  }
 
   /// The moment about t × N is Bλ cos²ψ all along; its rate, and that of λ, say what n·N is.
   Normal normal(const Vector3d& out, const Vector3d& t, const Vector3d& m, const Vector3d& n) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "windlass/contact/spatial_joints.hpp"
+#include "windlass/rod/layered_line.hpp"
 
 namespace windlass::contact::spatial {
 
@@ -49,7 +50,7 @@ class CoupledEdge final : public Joint {
   /// W, positive where the pressure flows in, with its derivatives with ψ and ω.
   struct Inflow {
     double value, by_psi, by_travel;
-    bool any() const { return value > 0.0; }
+    bool any() const { return value > rod::narrowest_layer; }
   };
   Inflow inflow(double psi, const Loads& loads) const;
   double side() const { return line_ == Side::left ? 1.0 : -1.0; }

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "windlass/rod/dense_arc.hpp"
 #include "windlass/bvp/collocation_table.hpp"
+#include "windlass/rod/dense_arc.hpp"
 #include "windlass/rod/layered_line.hpp"
 
 namespace windlass::rod {
@@ -60,7 +60,7 @@ class CoupledLineArc final : public DenseArc {
     Eigen::Matrix2Xd q, slope, n;
     Eigen::VectorXd p;
     std::vector<LayeredSection> at;
-    std::vector<double> tilt;                     ///< of w's sign where elements end
+    std::vector<double> tilt;                     ///< w E where elements end
     Eigen::VectorXd flux;                         ///< w p̂ there
     Eigen::PartialPivLU<Eigen::MatrixXd> system;  ///< of p's equations, n following
     Rows n_by_p;                                  ///< 2(NM + 1) × NM, the last two rows at the end
@@ -74,15 +74,17 @@ class CoupledLineArc final : public DenseArc {
   double step(const bvp::ArcPoint& at, int element) const {
     return (mesh_[element + 1] - mesh_[element]) * at.length;
   }
-  static Friction friction(const bvp::ArcPoint& at) { return {at.friction, at.arm, at.compliance, at.travel}; }
+  static Friction friction(const bvp::ArcPoint& at) {
+    return {at.friction, at.arm, at.compliance, at.travel};
+  }
   const double* node(const bvp::ArcPoint& at, int k) const;
   /// Place of component j of node k in the arc's list (interior, q_a, q_b, n, ℓ, ω, nothing).
   int place(int k, int j) const;
   /// Share of what p drags at point k in the force at point g, over ℓ; of that at the end for g = points().
   double share(int g, int k) const;
   /// Does p flow in at an end, from beyond it?
-  bool flows_in_at_start(const State& state) const { return state.tilt.front() < 0.0; }
-  bool flows_in_at_end(const State& state) const { return state.tilt.back() > 0.0; }
+  bool flows_in_at_start(const State& state) const { return state.tilt.front() < -narrowest_layer; }
+  bool flows_in_at_end(const State& state) const { return state.tilt.back() > narrowest_layer; }
   bool flows_in(const State& state, int element_end) const {
     return (element_end == 0 && flows_in_at_start(state)) ||
            (element_end == elements() && flows_in_at_end(state));

@@ -10,8 +10,13 @@ struct Friction {
   double mu = 0.0;
   double arm = 0.0;         ///< r: it acts this far below the centre line [ρ]
   double compliance = 0.0;  ///< k = 1/EA of the rod [ρ²/EI]
-  double travel = 0.0;      ///< ω: the rod runs along itself at ω times the cylinder's speed, in reference lengths
+  double travel =
+      0.0;  ///< ω: the rod runs along itself at ω times the cylinder's speed, in reference lengths
 };
+
+/// Layers narrower than this [ρ] are point forces: where p would flow in there, one lifts nothing, but presses the free arc into the
+/// cylinder by F w³/B, 1e-20.
+inline constexpr double narrowest_layer = 3e-7;
 
 /// One section of a line on the unit cylinder that slips along the rod, with all that the friction does to it: it turns the rod about
 /// the centre line, by `arm`, and stretches it, by k (PHYSICS, "The moment of the friction", "Stretch while sliding"). Numbers with
@@ -28,17 +33,16 @@ struct LayeredSection {
   using Number = Dual<variables>;
   enum Variable { psi, bend, twist, around, axial, travel };
 
-  Number normal;         ///< ν [EI/ρ²]
-  Number lever;          ///< w [ρ]
-  Number pressure;       ///< p₀ [EI/ρ³]
-  Number share;          ///< α
-  Number drag[2];        ///< −n_a', −n_z' over p
-  Number across;         ///< −M' over p
-  Number stretch;        ///< λ
-  Number slip_along;     ///< d_t, whose sign is that of w
+  Number normal;            ///< ν [EI/ρ²]
+  Number lever;             ///< w [ρ]
+  Number pressure;          ///< p₀ [EI/ρ³]
+  Number share;             ///< α
+  Number drag[2];           ///< −n_a', −n_z' over p
+  Number across;            ///< −M' over p
+  Number stretch;           ///< λ
   Number load, momenta[2];  ///< ∂L/∂ψ; B ψ' and m₃ [EI/ρ]
-  Number moved[2];       ///< (a', z')
-  double stored = 0.0;   ///< elastic energy a length, that of the stretch too [EI/ρ²]
+  Number moved[2];          ///< (a', z')
+  double stored = 0.0;      ///< elastic energy a length, that of the stretch too [EI/ρ²]
 
   /// @param slope  (ψ', χ'); the third variable is χ'
   static LayeredSection at(const SurfaceDensity& rod, const Friction& friction, double psi,

@@ -55,9 +55,8 @@ BOOST_AUTO_TEST_CASE(matrix_is_the_derivative_of_the_gradient) {
   // With the moment of the friction, the stretch, and both.
   for (const auto& [radius, compliance] : {std::pair(0.3, 0.0), std::pair(0.0, 0.3), std::pair(0.2, 0.1)})
     // The pressure flows leftward, rightward, from both ends, from the middle.
-    for (const auto& [tilt, travel, bend] :
-         {std::tuple(0.5, 0.0, 0.4), std::tuple(-0.5, 0.0, 0.4), std::tuple(0.3, 0.3, 0.4),
-          std::tuple(0.3, 0.3, -0.4)}) {
+    for (const auto& [tilt, travel, bend] : {std::tuple(0.5, 0.0, 0.4), std::tuple(-0.5, 0.0, 0.4),
+                                             std::tuple(0.3, 0.3, 0.4), std::tuple(0.3, 0.3, -0.4)}) {
       Coupled f(tilt, travel, bend);
       f.radius = radius, f.compliance = compliance;
       const MatrixXd matrix = f.matrix();
@@ -65,9 +64,9 @@ BOOST_AUTO_TEST_CASE(matrix_is_the_derivative_of_the_gradient) {
         VectorXd up = f.z, down = f.z;
         up(k) += h, down(k) -= h;
         const VectorXd difference = (f.gradient(up) - f.gradient(down)) / (2.0 * h) - matrix.col(k);
-        BOOST_TEST(difference.cwiseAbs().maxCoeff() < bound,
-                   "r " << radius << " k " << compliance << " column " << k << " off by "
-                        << difference.cwiseAbs().maxCoeff());
+        BOOST_TEST(difference.cwiseAbs().maxCoeff() < bound, "r " << radius << " k " << compliance
+                                                                  << " column " << k << " off by "
+                                                                  << difference.cwiseAbs().maxCoeff());
       }
     }
 }
