@@ -6,7 +6,9 @@
 #include <tuple>
 
 #include "gathered.hpp"
+#include "windlass/obstacle/cylinder.hpp"
 #include "windlass/rod/dragged_line_arc.hpp"
+#include "windlass/rod/line_contact.hpp"
 
 namespace {
 
@@ -87,6 +89,41 @@ BOOST_AUTO_TEST_CASE(without_an_arm_it_is_the_line_without_moment) {
   BOOST_TEST((ends.segment<2>(3) - plain_ends.segment<2>(2)).norm() < rounding);
   BOOST_TEST((ends.segment<2>(6) - plain_ends.segment<2>(4)).norm() < rounding);
   BOOST_TEST((ends.tail<2>() - plain_ends.tail<2>()).norm() < rounding);
+}
+
+BOOST_AUTO_TEST_CASE(a_section_without_friction_is_that_of_a_line_contact) {
+  const Eigen::Vector2d momentum(0.4, -0.15), n(1.7, 0.3);
+  for (const double compliance : {0.0, 0.2}) {
+    rod::Material material;
+    material.bending_stiffness = coupled_density.bending_stiffness;
+    material.stiffness << 1.2, 1.2, 0.7;
+    material.compliance = compliance;
+    material.stretches = true;
+    const rod::LineSection known =
+        rod::line_section(*obstacle::unit_cylinder(), material, {0.35, 0.2}, momentum, n);
+    const rod::LayeredSection at =
+        rod::LayeredSection::with_momentum(coupled_density, {0.4, 0.2, compliance, 0.3}, 0.35, momentum, n);
+    constexpr double rounding = 1e-14;
+    BOOST_TEST(std::abs(at.pressure.value - known.pressure) < rounding);
+    BOOST_TEST(std::abs(at.normal.value - known.n(0)) < rounding);
+    BOOST_TEST(std::abs(at.stretch.value - material.stretch(known.n(2))) < rounding);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(pressure_balances_the_force_along_the_normal) {
+  // n·N = ν − w p falls by p less the hoop part along any motion that the friction drives: α is what it changes of ν.
+  const rod::Friction friction{0.4, 0.2, 0.3, 0.25};
+  const Eigen::Vector2d momentum(0.4, -0.15), n(1.7, 0.3);
+  const rod::LayeredSection at =
+      rod::LayeredSection::with_momentum(coupled_density, friction, 0.35, momentum, n);
+  constexpr double h = 1e-5;
+  const auto normal = [&](double p) {
+    const rod::LayeredSection there = rod::LayeredSection::with_momentum(
+        coupled_density, friction, 0.35, momentum - Eigen::Vector2d(0.0, at.across.value * p),
+        n - p * Eigen::Vector2d(at.drag[0].value, at.drag[1].value));
+    return there.normal.value;
+  };
+  BOOST_TEST(std::abs((normal(-h) - normal(h)) / (2.0 * h) - at.share.value) < 1e-9);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
