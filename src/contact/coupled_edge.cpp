@@ -24,8 +24,11 @@ Loads without_friction(const Loads& loads) {
 CoupledEdge::Inflow CoupledEdge::inflow(double at, const Loads& loads) const {
   const rod::Slip slip = rod::slip(at, loads.travel);
   const Vector2d t(std::cos(at), std::sin(at)), b(-t(1), t(0));
-  const double size = side() * loads.arm * loads.friction;
-  return {size * t.dot(slip.d), size * (b.dot(slip.d) + t.dot(slip.by_psi)), size * t.dot(slip.by_travel)};
+  const double size = side() * loads.friction, soft = loads.compliance * stiffness_;
+  const double lever = loads.arm + soft * t(0) * t(0), lever_psi = -2.0 * soft * t(0) * t(1);
+  return {size * lever * t.dot(slip.d),
+          size * (lever * (b.dot(slip.d) + t.dot(slip.by_psi)) + lever_psi * t.dot(slip.d)),
+          size * lever * t.dot(slip.by_travel)};
 }
 
 Attachment CoupledEdge::attach(Side side, const double* w, const Loads& loads) const {
@@ -56,22 +59,17 @@ void CoupledEdge::curvature(Side side, const double* w, const Loads& loads, cons
 }
 
 std::optional<Joint::Drag> CoupledEdge::drag(Side side, const double* w, const Loads& loads,
-                                             const SmallVector& g) const {
+                                             const SmallVector&) const {
   if (side != line_) return std::nullopt;
   Drag out{SmallVector::Zero(5), SmallMatrix::Zero(5, 5), SmallMatrix::Zero(5, 3)};
-  // The moments are ±g.
-  const double sign = this->side(), c = std::cos(w[psi]), s = std::sin(w[psi]), cos2 = c * c - s * s;
-  const double bend = sign * g(0) / stiffness_, twisting = sign * g(1);
-  out.value(force) = sign * bend * (twisting - 3.0 * stiffness_ * s * c) - w[force];
-  out.by_w(force, psi) = -sign * 3.0 * stiffness_ * bend * cos2;
+  // The line's own force along the normal is in its gradient.
+  out.value(force) = -w[force];
   out.by_w(force, force) = -1.0;
-  out.by_gradient(force, 0) = (twisting - 3.0 * stiffness_ * s * c) / stiffness_;
-  out.by_gradient(force, 1) = bend;
   if (inflow(w[psi], loads).any()) return out;
   // Work of a point force's friction on displacements (u, ψ, χ).
   const rod::Slip slip = rod::slip(w[psi], loads.travel);
   const double mu = -loads.friction, r = loads.arm;
-  const Vector2d t(c, s), b(-s, c);
+  const Vector2d t(std::cos(w[psi]), std::sin(w[psi])), b(-t(1), t(0));
   const auto work = [&](const Vector2d& d, double across) {
     SmallVector e = SmallVector::Zero(5);
     e << mu * (1.0 - r) * d(0), mu * d(1), 0.0, mu * r * across, 0.0;
@@ -98,6 +96,14 @@ std::optional<Joint::Lift> CoupledEdge::lift(const double* w, const Loads& loads
   Lift out{in.value * w[force], SmallVector::Zero(5), in.by_travel * w[force]};
   out.by_w(psi) = in.by_psi * w[force];
   out.by_w(force) = in.value;
+  return out;
+}
+
+std::optional<Joint::Stretching> CoupledEdge::stretching(const double* w, const SmallVector& n,
+                                                         double compliance) const {
+  Stretching out = *edge_.stretching(w, n, compliance);
+  out.by_w.conservativeResize(5);
+  out.by_w(force) = 0.0;
   return out;
 }
 

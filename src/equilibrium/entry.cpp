@@ -126,7 +126,7 @@ Entry draft(const RodProblem& from, const Successor& next, const chain::Profile&
   const scene::Scene scene = from.scene_at(p);
   choose_tails(meshes, next.topology, from.rod(), loads_of(scene), next.s);
   auto problem = std::make_shared<RodProblem>(scene, from.spatial(), next.topology, meshes, from.keys());
-  if (problem->coupled()) {
+  if (problem->layered()) {
     const Vector guess = chain::guess_state(problem->chain(), next.topology, problem->rod(), shape, next.s);
     meshes = with_layers(problem->chain(), meshes, guess, problem->loads(p));
     problem = std::make_shared<RodProblem>(scene, from.spatial(), next.topology, meshes, from.keys());

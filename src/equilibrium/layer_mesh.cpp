@@ -12,8 +12,8 @@ namespace {
 /// An element in a layer is as long as its width at the edge: a polynomial of degree 5 then misses 2e-6 of exp(−x/w), the flux
 /// at its ends far less.
 constexpr double part = 1.0;
-/// Layers narrower than this part of a line are forces at its edge.
-constexpr double narrowest = 1e-6;
+/// Layers narrower than this part of a line are none.
+constexpr double narrowest = 1e-9;
 
 /// Length of an element that begins at a distance x from the edge: |p^(M)|^(1/M) goes as exp(−x/(M w)).
 double element_at(double x, double width, int stages) {

@@ -95,8 +95,12 @@ ContactEvent suction(const Dense& line, const ContactEvent& pressure, const std:
   const bool mirrored = event.from < begin;  // about the mid-point of a half chain
   if (event.to >= end || (!mirrored && event.from <= begin)) {
     const double force = event.to >= end ? presses.end : presses.begin;
-    event.value = 1.0 - (force > 0.0 ? part_beside_press(pull, width, force)
-                                     : std::cbrt(pull * width * width / carried_beside_touch));
+    // A wide one lifts the rod before it does as much to the state: not by more than certificates bear, 1e-9.
+    constexpr double carried_height = 4e-8;
+    const double part = force > 0.0 ? part_beside_press(pull, width, force)
+                                    : std::max(std::cbrt(pull * width * width / carried_beside_touch),
+                                               std::pow(pull * std::pow(width, 4) / carried_height, 0.25));
+    event.value = 1.0 - part;
     return event;
   }
   for (const ContactEvent& other : dips) {

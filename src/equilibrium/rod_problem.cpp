@@ -151,10 +151,15 @@ std::string not_built(std::string_view key) {
 
 }  // namespace
 
+bool RodProblem::asks_for(double Loads::*field) const {
+  return base_.*field != 0.0 || std::find(fields_.begin(), fields_.end(), field) != fields_.end();
+}
+
+bool RodProblem::layered() const {
+  return coupled() || (rod_.travel != chain::Travel::none && asks_for(&Loads::compliance));
+}
+
 const char* RodProblem::missing_on(const Topology& topology) const {
-  const auto asked = [&](double Loads::*field) {
-    return base_.*field != 0.0 || std::find(fields_.begin(), fields_.end(), field) != fields_.end();
-  };
   if (coupled() && !(spatial_ && carries_couple(topology)) &&
       !((!spatial_ || lies_in_plate(topology)) && stays_in_plate(topology, scene_)))
     return "cylinder.friction_couple";
@@ -165,7 +170,7 @@ const char* RodProblem::missing_on(const Topology& topology) const {
   if (varies("rod.radius") && touches_rim(rod_, topology)) return "plate.outer_radius";
   if (rod_.travel != chain::Travel::none && !scene_.free_of_torsion() && strands_in_plate(topology))
     return "ends.kind";
-  if (rod_.travel != chain::Travel::none && asked(&Loads::compliance) &&
+  if (rod_.travel != chain::Travel::none && asks_for(&Loads::compliance) &&
       !carries_stretch(topology, rod_.travel))
     return "rod.extensible";
   return nullptr;
@@ -180,7 +185,7 @@ void RodProblem::rebuild() {
   if (varies("rod.weight_z")) rod_.weighs[2] = true;
   base_ = loads_of(scene_);
   if (const char* key = missing_on(topology_)) throw NoEquilibrium(not_built(key));
-  rod_.coupled = coupled() && !flat();
+  rod_.coupled = layered() && !flat();
   chain_ = chain::build_chain(rod_, topology_, meshes_);
   chain_->let_slide(slides_);
   finer_.reset();

@@ -11,20 +11,31 @@ using chain::Stretch;
 
 bool carries_stretch(const Topology& topology, chain::Travel travel) {
   const std::vector<Stretch>& all = topology.stretches;
-  bool lines = false, tilted = false, pressed = false;
+  bool lines = false, tilted = false, flat = false, pressed = false;
   for (int i = 0; i < static_cast<int>(all.size()); ++i) {
-    lines = lines || all[i] == Stretch::line;
-    tilted = tilted || (all[i] == Stretch::line && !topology.lies_flat(i));
+    if (all[i] != Stretch::line) continue;
+    lines = true;
+    flat = flat || topology.lies_flat(i);
     pressed = pressed || (i > 0 && topology.lies_flat(i - 1) && topology.lies_flat(i));
+    if (topology.lies_flat(i)) continue;
+    tilted = true;
+    const bool alone = topology.obstacle(i) == 0 && !(topology.half && i == 0) &&
+                       !topology.beside_strand(i) && topology.seat(i).stop < 0 &&
+                       topology.seat(i + 1).stop < 0;
+    if (!alone) return false;
   }
-  if (tilted || pressed) return false;
+  if (pressed || (tilted && flat)) return false;
+  if (tilted) return travel != chain::Travel::free;
   const std::vector<Stretch> flat_coil{Stretch::tail, Stretch::line, Stretch::tail};
   return !lines || travel != chain::Travel::free || all == flat_coil;
 }
 
 std::string stretch_not_carried() {
-  return "rod.extensible: a rod that stretches is dragged at isolated touches and along lines that lie on "
-         "the plate, not along lines where the friction stretches it: false leaves the stretch out";
+  return "rod.extensible: a rod that stretches is dragged at isolated touches, along lines of the cylinder, "
+         "or "
+         "along lines that lie on the plate, too; not along lines that leave the plate, nor along lines of a "
+         "rod "
+         "that runs along itself: false leaves the stretch out";
 }
 
 std::vector<Started> dragged_with_stretch(const scene::Scene& scene, const std::vector<std::string>& keys,

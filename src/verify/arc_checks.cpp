@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "checks.hpp"
+#include "slaved_pressure.hpp"
 #include "windlass/verify/shadow.hpp"
 
 namespace windlass::verify {
@@ -160,6 +161,8 @@ struct Surroundings {
   const Stiffness& law;
   const std::vector<Shape>& shapes;
   const Shape& below;
+  bool layered() const { return has_layers(law, below); }
+  double width(const Section& x) const { return layer_width(x, law, below); }
   double pressure(const Section& x) const {
     if (below.wall()) return plane_pressure(x, law, *below.wall());
     return law.stretches() ? stretched_surface_pressure(x, law) : surface_pressure(x, law.K[0]);
@@ -174,9 +177,9 @@ void check_sample(const ArcRecord& arc, Eigen::Index i, const Surroundings& arou
   found.pressures.emplace_back(arc.s[i], pressure);
   found.off_surface.add(std::abs(Gap(stored, around.below).value));
   found.off_surface.add(std::abs(Gap(stored, around.below).rate));
-  const double off = around.below.has_couple() ? taken_by_couple(stored, around.law.K[0]) -
-                                                     pressure * around.below.lever(tangent(stored))
-                                               : pressure - around.pressure(stored);
+  const double off = around.layered()
+                         ? taken_by_friction(stored, around.law) - pressure * around.width(stored)
+                         : pressure - around.pressure(stored);
   found.pressure.add(std::abs(off) / scales.force);
 }
 
@@ -186,13 +189,8 @@ void look_along(const std::vector<Section>& sections, double begin, double h, Ar
   for (std::size_t k = 1; k < sections.size(); ++k) {
     if (kind == ArcKind::line) {
       found.off_surface.add(std::abs(Gap(sections[k], around.below).value));
-      const double w = around.below.has_couple() ? around.below.lever(tangent(sections[k])) : 0.0;
-      const bool between = k + 1 < sections.size();  // at the samples w may be too small
-      if (!around.below.has_couple())
+      if (!around.layered())
         found.pressures.emplace_back(begin + static_cast<double>(k) * h, around.pressure(sections[k]));
-      else if (between && w != 0.0)
-        found.pressures.emplace_back(begin + static_cast<double>(k) * h,
-                                     taken_by_couple(sections[k], around.law.K[0]) / w);
     }
     for (const Shape& shape : around.shapes) {
       if (kind != ArcKind::free && &shape == &around.below) continue;
@@ -212,38 +210,43 @@ bool close(const Section& a, const Section& b, const Scales& scales) {
          0.1 * tight;
 }
 
-/// The pressure of a line whose friction has a moment, as stored, about the piece from one sample to the next.
-void prescribe(RodFlow& flow, const ArcRecord& arc, Eigen::Index i) {
-  constexpr Eigen::Index most = 6;  // samples; more swing between those of unlike elements
-  const Eigen::Index count = std::min<Eigen::Index>(most, arc.s.size()),
-                     first = std::clamp<Eigen::Index>(i - count / 2 + 1, 0, arc.s.size() - count);
-  Eigen::VectorXd places(count), pressures(count);
-  for (Eigen::Index k = 0; k < count; ++k)
-    places(k) = arc.s[first + k] - arc.s[i], pressures(k) = arc.p[first + k];
-  flow.prescribe(places, pressures);
+/// Is the layer of a piece's pressure short beside it, or is there none of one direction?
+bool is_slaved(double left, double right, double length) {
+  constexpr double many = 30.0;
+  return left * right <= 0.0 || length > many * std::min(std::abs(left), std::abs(right));
 }
 
-/// From one sample to the next of a line whose friction has a moment: the way that its pressure flows.
-double integrate_coupled(RodFlow& flow, const ArcRecord& arc, Eigen::Index i, const Surroundings& around,
+/// From one sample to the next of a line whose pressure has layers: the way that it flows.
+double integrate_layered(RodFlow& flow, const ArcRecord& arc, Eigen::Index i, const Surroundings& around,
                          const Scales& scales, Collected& found) {
-  const auto lever = [&](const Section& x) { return around.below.lever(tangent(x)); };
   const Section left = sample(arc, i), right = sample(arc, i + 1);
-  const bool backward = lever(left) > 0.0 && lever(right) > 0.0,
-             forward = lever(left) < 0.0 && lever(right) < 0.0;
-  if (backward || forward)
-    flow.prescribe({}, {});
-  else
-    prescribe(flow, arc, i);
-  const double length = arc.s[i + 1] - arc.s[i];
+  const double w = around.width(right), length = arc.s[i + 1] - arc.s[i];
+  const bool backward = w > 0.0;
   const Section &start = backward ? right : left, &goal = backward ? left : right;
-  flow.restart(start, backward);
   const int looks = looks_along(scales.moment / std::sqrt(around.law.K[0]) * length);
-  std::vector<Section> sections = {start};
-  for (int k = 1; k <= looks; ++k) sections.push_back(flow.advance(k == looks ? length : k * length / looks));
-  compare(sections.back(), goal, scales, found);
-  if (backward) std::reverse(sections.begin(), sections.end());
-  look_along(sections, arc.s[i], length / looks, arc.kind, around, found);
-  return std::abs(flow.contact_force());
+  SlavedPiece piece;
+  if (is_slaved(around.width(left), w, length)) {
+    piece = find_slaved(flow, around.law, around.below, start, length, 0.5 * (arc.p[i] + arc.p[i + 1]),
+                        backward, looks);
+    if (!piece.converged) found.position.add(NAN);
+  } else {
+    flow.restart(start, backward);
+    piece.stations = {start};
+    for (int k = 1; k <= looks; ++k)
+      piece.stations.push_back(flow.advance(k == looks ? length : k * length / looks));
+    for (const Section& x : piece.stations)
+      piece.pressures.push_back(taken_by_friction(x, around.law) / around.width(x));
+    piece.contact_force = std::abs(flow.contact_force());
+  }
+  compare(piece.stations.back(), goal, scales, found);
+  if (backward) {
+    std::reverse(piece.stations.begin(), piece.stations.end());
+    std::reverse(piece.pressures.begin(), piece.pressures.end());
+  }
+  for (int k = 1; k < looks; ++k)
+    found.pressures.emplace_back(arc.s[i] + k * length / looks, piece.pressures[static_cast<std::size_t>(k)]);
+  look_along(piece.stations, arc.s[i], length / looks, arc.kind, around, found);
+  return piece.contact_force;
 }
 
 /// Integrates from one sample to the next. @return the contact force on the way
@@ -256,8 +259,8 @@ double integrate_piece(RodFlow& flow, const ArcRecord& arc, Eigen::Index i, cons
     return arc.kind == ArcKind::line ? 0.5 * (arc.p[i] + arc.p[i + 1]) * length : 0.0;
   }
   std::vector<Section> sections = {start};
-  if (arc.kind == ArcKind::line && around.below.has_couple())
-    return integrate_coupled(flow, arc, i, around, scales, found);
+  if (arc.kind == ArcKind::line && around.layered())
+    return integrate_layered(flow, arc, i, around, scales, found);
   // plain integration, the cheap and direct way; after it has lost e^20 there is no point in trying
   if (growth * length < 20.0) {
     flow.restart(start);
@@ -312,10 +315,11 @@ double check_arcs(const Solution& solution, const scene::Scene& scene, const Sca
     for (Eigen::Index i = 0; i < arc.s.size(); ++i) norm.add(std::abs(arc.q.col(i).norm() - 1.0));
     const Shape* below = arc.kind == ArcKind::line ? shape_of(shapes, arc.obstacle) : nullptr;
     const bool flat = below && on_plate(arc, scene);
-    // A line on nothing; or with what this integration has not: a stretch by the friction along it.
+    // A line on nothing; or with what this integration has not: beside a plate, a stretch by the friction along it.
     const bool stretched =
-        below && law.stretches() && below->drags() && !(flat && std::abs(solution.travel_rate) < tight);
-    if (arc.kind == ArcKind::line && (!below || stretched)) found.off_surface.add(NAN);
+        below && law.stretches() && below->drags() && flat && std::abs(solution.travel_rate) >= tight;
+    if (arc.kind == ArcKind::line && (!below || stretched))
+      found.off_surface.add(NAN);
     const Shape pressed = !below ? none : flat ? below->beside_plate() : *below;
     integrate(arc, {law, shapes, pressed}, scales, found);
   }

@@ -81,11 +81,24 @@ double stretched_surface_pressure(const Section& section, const Stiffness& stiff
   return -none / (third(1.0) - none);
 }
 
-double taken_by_couple(const Section& section, double bending_stiffness) {
+bool has_layers(const Stiffness& stiffness, const Shape& shape) {
+  return shape.drags_alone() && (shape.has_couple() || stiffness.stretches());
+}
+
+double taken_by_friction(const Section& section, const Stiffness& stiffness) {
+  const double B = stiffness.K[0], k = stiffness.k, stretch = stiffness.stretch(section);
   const Vector3d N(section.r.x(), section.r.y(), 0.0), t = tangent(section);
-  const double along = t.z(), round = t.dot(Vector3d::UnitZ().cross(N));
-  return (section.m.dot(t) - 3.0 * bending_stiffness * along * round) * section.m.dot(N) / bending_stiffness -
-         section.n.dot(N);
+  const double s = t.z(), c = t.dot(Vector3d::UnitZ().cross(N)), turn = section.m.dot(N) / B;
+  const double a = section.m.dot(t) - 3.0 * B * stretch * s * c;
+  const double stretch1 = -k * turn * (a * c * c + section.n.dot(t.cross(N))) / (1.0 + k * B * c * c * c * c);
+  return (turn * a + B * stretch1 * c * c) / stretch - section.n.dot(N);
+}
+
+double layer_width(const Section& section, const Stiffness& stiffness, const Shape& shape) {
+  const double soft = stiffness.k * stiffness.K[0], stretch = stiffness.stretch(section);
+  const Vector3d t = tangent(section);
+  const double c2 = t.head<2>().squaredNorm();
+  return shape.along(section.r, stretch * t) * (shape.arm() + soft * c2) / (stretch * (1.0 + soft * c2 * c2));
 }
 
 double plane_pressure(const Section& section, const Stiffness& stiffness, const Vector3d& normal) {
@@ -172,8 +185,8 @@ Section RodFlow::Memory::section(const double* y, double s) const {
 }
 
 double RodFlow::Memory::pressure(const Section& x, double s) const {
-  if (shape.has_couple() && places.size() == 0)
-    return taken_by_couple(x, stiffness.K[0]) / shape.lever(tangent(x));
+  if (places.size() == 0 && has_layers(stiffness, shape))
+    return taken_by_friction(x, stiffness) / layer_width(x, stiffness, shape);
   if (places.size() > 0) {
     double sum = 0.0;
     for (Eigen::Index i = 0; i < places.size(); ++i) {

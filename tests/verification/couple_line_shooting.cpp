@@ -17,11 +17,31 @@ struct OnLine : OnCylinder {
   double pressed = 0.0;  ///< ∫ p ds
 };
 
+/// What the force along the normal is without friction, ν, and w of n·N = ν − w p.
+struct Normal {
+  double free, width;
+};
+
 /// Unknowns: at the right edge angle, height, inclination, turn, the moments about N and t, the force (3); τ; the places of both
 /// edges, the point force at the left one; place and force of the plate's touch. At the right edge the curvature is the surface's.
 struct LineOracle {
   const scene::Scene& scene;
   static constexpr int size = 15;
+
+  double stretch(const Vector3d& n, const Vector3d& t) const {
+    return 1.0 + scene.rod.compliance() * n.dot(t);
+  }
+
+  /// The moment about t × N is Bλ cos²ψ all along; its rate, and that of λ, say what n·N is.
+  Normal normal(const Vector3d& out, const Vector3d& t, const Vector3d& m, const Vector3d& n) const {
+    const double b = scene.rod.bending_stiffness, k = scene.rod.compliance(), mu = *scene.friction;
+    const double sine = t.z(), cosine = Vector3d::UnitZ().cross(out).dot(t), longer = stretch(n, t);
+    const double whole = 1.0 + k * b * std::pow(cosine, 4), turn = m.dot(out) / b;
+    const double a = m.dot(t) - 3.0 * b * longer * sine * cosine;
+    const double rate = -k * turn * (a * cosine * cosine + n.dot(t.cross(out))) / whole;
+    return {(turn * a + b * rate * cosine * cosine) / longer,
+            mu * sine * (scene.friction_arm() + k * b * cosine * cosine) / (longer * whole)};
+  }
 
   OnLine along(const OnLine& at, double length, bool line) const {
     using State = std::array<double, 16>;
@@ -29,21 +49,20 @@ struct LineOracle {
     const double mu = *scene.friction, arm = scene.friction_arm();
     const auto rates = [&](const State& x, State& rate, double) {
       const Eigen::Map<const Vector3d> r(&x[0]), t(&x[3]), d1(&x[6]), m(&x[9]), n(&x[12]);
-      const double twisting = m.dot(t);
+      const double twisting = m.dot(t), longer = stretch(n, t);
       const Vector3d u = (m - twisting * t) / b + twisting / c * t;
       Vector3d push = Vector3d::Zero(), couple = Vector3d::Zero();
       double p = 0.0;
       if (line) {
         const Vector3d out(r.x(), r.y(), 0.0), whole = out + mu * Vector3d::UnitZ();
-        const double round = Vector3d::UnitZ().cross(out).dot(t);
-        const double free = (twisting - 3.0 * b * t.z() * round) * m.dot(out) / b;
-        p = (free - n.dot(out)) / (arm * mu * t.z());
+        const Normal force = normal(out, t, m, n);
+        p = (force.free - n.dot(out)) / force.width;
         push = p * whole, couple = -arm * out.cross(push);
       }
-      Eigen::Map<Vector3d>{&rate[0]} = t;
+      Eigen::Map<Vector3d>{&rate[0]} = longer * t;
       Eigen::Map<Vector3d>{&rate[3]} = u.cross(t);
       Eigen::Map<Vector3d>{&rate[6]} = u.cross(d1);
-      Eigen::Map<Vector3d>{&rate[9]} = n.cross(t) - couple;
+      Eigen::Map<Vector3d>{&rate[9]} = longer * n.cross(t) - couple;
       Eigen::Map<Vector3d>{&rate[12]} = -push;
       rate[15] = p;
     };
@@ -53,7 +72,7 @@ struct LineOracle {
     x[15] = at.pressed;
     boost::numeric::odeint::runge_kutta_fehlberg78<State> stepper;
     // Steps of a seventh of the layer's width and less: error (1/7)^8, decaying.
-    const double step = line ? arm * mu / 35.0 : 0.05;
+    const double step = line ? (arm + b * scene.rod.compliance()) * mu / 35.0 : 0.05;
     const int steps = 10 + static_cast<int>(std::abs(length) / step);
     for (int k = 0; k < steps; ++k) stepper.do_step(rates, x, length * k / steps, length / steps);
     OnLine out;
@@ -67,8 +86,9 @@ struct LineOracle {
     const Vector3d out(std::sin(x(0)), -std::cos(x(0)), 0.0);
     OnLine at{on_cylinder(x.head<4>()), {}, {}};
     const Vector3d across = out.cross(at.t);
-    at.m = x(4) * out + x(5) * at.t + scene.rod.bending_stiffness * std::pow(std::cos(x(2)), 2) * across;
     at.n = x.segment<3>(6);
+    const double curvature = stretch(at.n, at.t) * std::pow(std::cos(x(2)), 2);
+    at.m = x(4) * out + x(5) * at.t + scene.rod.bending_stiffness * curvature * across;
     return at;
   }
 

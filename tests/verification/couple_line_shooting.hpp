@@ -4,9 +4,9 @@
 
 namespace windlass::test {
 
-/// Shooting, independent of the solver, for a rod that lies along one line on a cylinder that slides, with the moment of the friction
-/// and travel blocked, and touches a plate with its right tail: the first-order equations in space, the pressure that of the
-/// force along the normal, p = ((M − 3B sin ψ cos ψ) ψ' − n·N)/w, w = r mu t_z > 0, from the layer at the right edge inward.
+/// Shooting, independent of the solver, for a rod that lies along one line on a cylinder that slides, with the moment of the friction,
+/// the stretch of the rod, or both, and travel blocked, and touches a plate with its right tail: the first-order equations in space,
+/// the pressure that of the force along the normal, p = (ν − n·N)/w, w > 0, from the layer at the right edge inward.
 /// @param guess  a solution on those contacts
 Dragged shot_from_line(const equilibrium::Solution& guess, const scene::Scene& scene);
 

@@ -113,7 +113,7 @@ struct RodKind {
   bool under_thrust = false;  ///< strut: thrust given, else shortening
   bool knotted = false;       ///< strut: its ends are pulled, and long tails leave its knot to slide along it
   Travel travel = Travel::none;  ///< of a rod on a cylinder that slips along it
-  bool coupled = false;          ///< the friction of that cylinder has a moment about the centre line
+  bool coupled = false;          ///< its friction turns or stretches the rod: pressures of lines have layers
   bool guided = false;           ///< the ends of a rod on a cylinder are on sliders
   double pull_angle =
       NAN;  ///< between the pulls, for a rod that they leave free to turn [rad]; NaN: it varies

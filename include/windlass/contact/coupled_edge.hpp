@@ -1,18 +1,20 @@
 #pragma once
 
 #include "windlass/contact/spatial_joints.hpp"
+#include "windlass/rod/layered_line.hpp"
 
 namespace windlass::contact::spatial {
 
-/// Edge of a line contact with a cylinder that slips along the rod, whose friction has a moment about the centre line
-/// (rod/coupled_line_arc.hpp): w = (u, ψ, χ, F), arclength unknown; F the force that the edge carries beside the line's pressure.
-/// With the lever w = r mu d_t and n₁ = ψ'(m₃ − 3B sin ψ cos ψ)
+/// Edge of a line contact with a cylinder that slips along the rod, whose friction has a moment about the centre line or stretches
+/// the rod (rod/coupled_line_arc.hpp): w = (u, ψ, χ, F), arclength unknown; F the force that the edge carries beside the line's
+/// pressure. With W = w E = mu d_t (r + k B cos²ψ)
 ///
 ///  - where the pressure flows in from the edge, F is the flux w p there, the force of a layer as long as |w|: no point force;
-///  - else F is a point force, with its friction F mu d and moment: the curvature jumps, the gap begins with g'' = |w| F/B.
+///  - else F is a point force, with its friction F mu d and moment: m_b jumps by r mu d_t F, λ by k mu d_t F, and the gap begins with
+///    B g'' = λ |W| F, λ that of the free side.
 ///
-/// Equations 6: those of an Edge, of which the location is the jump of the curvature, and the jump of the force along the normal,
-/// F = ±(N·n − n₁ + Φ), Φ = w p what flows out of the line (+ where it begins).
+/// Equations 6: those of an Edge, of which the location is that curvature, and the jump of the force along the normal,
+/// F = ±(N·n − n_N), n_N of the line without what flows in.
 class CoupledEdge final : public Joint {
  public:
   CoupledEdge(Side line_side, double bending_stiffness, SurfacePointer surface = obstacle::unit_cylinder())
@@ -36,6 +38,8 @@ class CoupledEdge final : public Joint {
                            const SmallVector& g) const override;
   Location location(const double* w, const SmallVector& g_left, const SmallVector& g_right) const override;
   std::optional<Lift> lift(const double* w, const Loads& loads) const override;
+  std::optional<Stretching> stretching(const double* w, const SmallVector& n,
+                                       double compliance) const override;
   double flux(const double* w, const Loads& loads) const override;
   void retract(const double* w, const double* dw, double* out) const override;
   const obstacle::Surface* surface() const override { return surface_.get(); }
@@ -43,10 +47,10 @@ class CoupledEdge final : public Joint {
   void adopt(const Place& place, double* w) const override;
 
  private:
-  /// The lever w, positive where the pressure flows in, with its derivatives with ψ and ω.
+  /// W, positive where the pressure flows in, with its derivatives with ψ and ω.
   struct Inflow {
     double value, by_psi, by_travel;
-    bool any() const { return value > 0.0; }
+    bool any() const { return value > rod::narrowest_layer; }
   };
   Inflow inflow(double psi, const Loads& loads) const;
   double side() const { return line_ == Side::left ? 1.0 : -1.0; }

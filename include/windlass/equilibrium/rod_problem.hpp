@@ -127,6 +127,8 @@ class RodProblem final : public continuation::Problem {
   bool coupled() const;
   /// Does the rod lie in a plane by its contacts alone? The moment of the friction is then added on recording.
   bool flat() const;
+  /// Does friction turn or stretch the rod along lines, or may it, so that their pressure has layers?
+  bool layered() const;
   /// Does the cylinder slip along the rod? Its force then has no potential, and no index counts anything.
   bool dragged() const { return chain_->dragged(); }
   double last_error() const { return last_error_; }
@@ -208,6 +210,8 @@ class RodProblem final : public continuation::Problem {
   chain::RodKind rod_;
   obstacle::MovingPlate second_plate_;  ///< among rod_'s obstacles, if there is one
   contact::Loads base_;
+  /// Is it not zero, or may it be?
+  bool asks_for(double contact::Loads::*field) const;
   std::vector<double contact::Loads::*> fields_;  ///< where each parameter lives; null: rebuilds the rod
   SnesNewton newton_;
   std::unique_ptr<chain::Chain> chain_, finer_;  ///< finer_: one more stage, for the error estimate

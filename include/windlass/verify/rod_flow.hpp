@@ -49,9 +49,15 @@ double surface_pressure(const Section& section, double bending_stiffness);
 /// in p, which is found from its values without any and with a unit of it.
 double stretched_surface_pressure(const Section& section, const Stiffness& stiffness);
 
-/// What the moment of the friction along a line takes of the force along the normal: (M − 3B sin ψ cos ψ) ψ' − n·N. It is w p with
-/// w = r mu d_t, where b·m' of the moment B κ_n about the binormal b is n·N + w p.
-double taken_by_couple(const Section& section, double bending_stiffness);
+/// Does friction along a line take of the force along the normal, by its moment or because it stretches the rod? The pressure then
+/// has layers.
+bool has_layers(const Stiffness& stiffness, const Shape& shape);
+/// That part, w p: ν − n·N, ν the force along the normal without it. The moment about the binormal b = N × t is that of the surface's
+/// curvature, Bλ cos²ψ, whose rate the balance of moments knows: with c = cos ψ, s = sin ψ, D = 1 + kBc⁴ and A = m·t − 3Bλ s c
+///     λ ν = ψ' A + B λ' c²,   D λ' = −k ψ' (A c² + n·(t × N)).
+double taken_by_friction(const Section& section, const Stiffness& stiffness);
+/// And w = mu d·t (r + k B c²)/(λ D).
+double layer_width(const Section& section, const Stiffness& stiffness, const Shape& shape);
 
 /// Contact force per length that keeps the centreline on a plane with the normal N, for any section and natural shape.
 ///
@@ -78,7 +84,7 @@ class RodFlow {
   /// Begins at section `start`, s = 0.
   /// @param backward  against the arclength
   void restart(const Section& start, bool backward = false);
-  /// Of a line whose friction has a moment about the centre line p is what the force along the normal says, taken_by_couple over
+  /// Of a line whose friction has a moment about the centre line p is what the force along the normal says, taken_by_friction over
   /// w; that decays within w against the sign of w only, and says nothing where w vanishes. There: the polynomial through these
   /// places, counted from the next restart, and values; empty: none.
   void prescribe(const Eigen::VectorXd& places, const Eigen::VectorXd& pressures);

@@ -33,10 +33,11 @@ class Shape {
   Eigen::Vector3d couple(const Eigen::Vector3d& r, const Eigen::Vector3d& t) const {
     return -arm_ * outward(r, t).cross(outward(r, t) + drag(t));
   }
-  /// w = arm mu d·t of a rod with the unit tangent t: what the moment is about the binormal t × N, per force along the normal.
-  double lever(const Eigen::Vector3d& t) const {
-    return left_by_plate_ ? 0.0 : arm_ * drag(t).dot(t);  // what lies in a plate has t·e_z = 0
+  /// mu d·t of a rod with the slope r' = λ t: what friction has along it, per force along the normal.
+  double along(const Eigen::Vector3d& r, const Eigen::Vector3d& slope) const {
+    return (push(r, slope) - outward(r, slope)).dot(slope.normalized());
   }
+  double arm() const { return arm_; }
   bool has_edge() const { return std::isfinite(outer_radius_); }
   /// The same plate without an end.
   Shape without_edge() const {
@@ -51,6 +52,8 @@ class Shape {
   }
   bool has_couple() const { return arm_ > 0.0; }
   bool drags() const { return friction_ > 0.0; }
+  /// Does it drag, and nothing take what is along the axis on the spot?
+  bool drags_alone() const { return drags() && !left_by_plate_; }
   /// Second derivative of the gap along a unit tangent t, but for the part that the curvature of the rod has.
   double bend(const Eigen::Vector3d& r, const Eigen::Vector3d& t) const;
   /// The outward normal of a wall, the same everywhere.

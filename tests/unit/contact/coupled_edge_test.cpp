@@ -1,4 +1,4 @@
-// The edge of a line whose friction has a moment: derivatives against differences, where pressure flows in and where it flows out.
+// The edge of a line whose friction turns and stretches the rod: derivatives against differences, where pressure flows in and where it flows out.
 #include "windlass/contact/coupled_edge.hpp"
 
 #include <boost/test/unit_test.hpp>
@@ -18,6 +18,7 @@ contact::Loads slipping_loads(double travel) {
   contact::Loads loads;
   loads.friction = 0.4;
   loads.arm = 0.2;
+  loads.compliance = 0.15;
   loads.travel = travel;
   return loads;
 }
@@ -38,6 +39,8 @@ BOOST_AUTO_TEST_CASE(derivatives_are_those_of_the_values) {
       const Side other = line == Side::left ? Side::right : Side::left;
       inflows += edge.flux(w.data(), loads) > 0.0;
       BOOST_TEST((edge.flux(w.data(), loads) > 0.0) == !edge.lift(w.data(), loads).has_value());
+      const SmallVector n = SmallVector::LinSpaced(3, 0.4, 1.9);
+      const auto stretching = *edge.stretching(w.data(), n, loads.compliance);
       BOOST_TEST(!edge.drag(other, w.data(), loads, g).has_value());
       const auto drag = [&](const VectorXd& at, const SmallVector& h) {
         return VectorXd(edge.drag(line, at.data(), loads, h)->value);
@@ -47,6 +50,11 @@ BOOST_AUTO_TEST_CASE(derivatives_are_those_of_the_values) {
         const VectorXd by = step * VectorXd::Unit(5, k);
         const VectorXd difference = (drag(w + by, g) - drag(w - by, g)) / (2.0 * step);
         BOOST_TEST((difference - VectorXd(exact.by_w.col(k))).norm() < allowed);
+        const VectorXd above = w + by, below = w - by;
+        const double stretched = (edge.stretching(above.data(), n, loads.compliance)->value -
+                                  edge.stretching(below.data(), n, loads.compliance)->value) /
+                                 (2.0 * step);
+        BOOST_TEST(std::abs(stretched - stretching.by_w(k)) < allowed);
         const auto lift = edge.lift(w.data(), loads);
         if (!lift) continue;
         const VectorXd up = w + by, down = w - by;

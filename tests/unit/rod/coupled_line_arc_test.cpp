@@ -1,10 +1,14 @@
-// The line contact on a cylinder that slips, with the moment of the friction: derivatives against differences, limits.
+// The line contact on a cylinder that slips, with the moment of the friction and the stretch: derivatives against differences, limits.
 #include "windlass/rod/coupled_line_arc.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <tuple>
 
 #include "gathered.hpp"
+#include "windlass/obstacle/cylinder.hpp"
+#include "windlass/rod/dragged_line_arc.hpp"
+#include "windlass/rod/line_contact.hpp"
 
 namespace {
 
@@ -18,7 +22,7 @@ const rod::SurfaceDensity coupled_density{1.2, 0.7};
 struct Coupled {
   rod::CoupledLineArc arc{coupled_density, {0.0, 0.3, 0.45, 1.0}, 4};
   VectorXd z{arc.interior_tangent() + arc.ends()};
-  double friction = 0.4, radius = 0.3;
+  double friction = 0.4, radius = 0.3, compliance = 0.0;
 
   /// @param tilt  of the arc: its sign is that of the lever, where the rod does not run along itself
   explicit Coupled(double tilt, double travel, double bend = 0.4) {
@@ -37,7 +41,7 @@ struct Coupled {
   }
   bvp::ArcPoint point(const VectorXd& at) const {
     const double* ends = at.data() + arc.interior_tangent();
-    return {ends, ends + 3, at.data(), ends + 6, ends[8], friction, ends[9], 0.0, nullptr, radius};
+    return {ends, ends + 3, at.data(), ends + 6, ends[8], friction, ends[9], compliance, nullptr, radius};
   }
   VectorXd gradient(const VectorXd& at) const { return test::gathered_gradient(arc, point(at), z.size()); }
   MatrixXd matrix() const { return test::gathered_hessian(arc, point(z), z.size()); }
@@ -50,18 +54,23 @@ BOOST_AUTO_TEST_SUITE(coupled_line_arc)
 BOOST_AUTO_TEST_CASE(matrix_is_the_derivative_of_the_gradient) {
   constexpr double h = 1e-5,
                    bound = 2e-7;  // third derivatives are some 100 where layers are as short as here
-  // The pressure flows leftward, rightward, from both ends, from the middle.
-  for (const Coupled& f :
-       {Coupled(0.5, 0.0), Coupled(-0.5, 0.0), Coupled(0.3, 0.3), Coupled(0.3, 0.3, -0.4)}) {
-    const MatrixXd matrix = f.matrix();
-    for (Eigen::Index k = 0; k < f.z.size(); ++k) {
-      VectorXd up = f.z, down = f.z;
-      up(k) += h, down(k) -= h;
-      const VectorXd difference = (f.gradient(up) - f.gradient(down)) / (2.0 * h) - matrix.col(k);
-      BOOST_TEST(difference.cwiseAbs().maxCoeff() < bound,
-                 "column " << k << " off by " << difference.cwiseAbs().maxCoeff());
+  // With the moment of the friction, the stretch, and both.
+  for (const auto& [radius, compliance] : {std::pair(0.3, 0.0), std::pair(0.0, 0.3), std::pair(0.2, 0.1)})
+    // The pressure flows leftward, rightward, from both ends, from the middle.
+    for (const auto& [tilt, travel, bend] : {std::tuple(0.5, 0.0, 0.4), std::tuple(-0.5, 0.0, 0.4),
+                                             std::tuple(0.3, 0.3, 0.4), std::tuple(0.3, 0.3, -0.4)}) {
+      Coupled f(tilt, travel, bend);
+      f.radius = radius, f.compliance = compliance;
+      const MatrixXd matrix = f.matrix();
+      for (Eigen::Index k = 0; k < f.z.size(); ++k) {
+        VectorXd up = f.z, down = f.z;
+        up(k) += h, down(k) -= h;
+        const VectorXd difference = (f.gradient(up) - f.gradient(down)) / (2.0 * h) - matrix.col(k);
+        BOOST_TEST(difference.cwiseAbs().maxCoeff() < bound, "r " << radius << " k " << compliance
+                                                                  << " column " << k << " off by "
+                                                                  << difference.cwiseAbs().maxCoeff());
+      }
     }
-  }
 }
 
 BOOST_AUTO_TEST_CASE(without_an_arm_it_is_the_line_without_moment) {
@@ -80,6 +89,41 @@ BOOST_AUTO_TEST_CASE(without_an_arm_it_is_the_line_without_moment) {
   BOOST_TEST((ends.segment<2>(3) - plain_ends.segment<2>(2)).norm() < rounding);
   BOOST_TEST((ends.segment<2>(6) - plain_ends.segment<2>(4)).norm() < rounding);
   BOOST_TEST((ends.tail<2>() - plain_ends.tail<2>()).norm() < rounding);
+}
+
+BOOST_AUTO_TEST_CASE(a_section_without_friction_is_that_of_a_line_contact) {
+  const Eigen::Vector2d momentum(0.4, -0.15), n(1.7, 0.3);
+  for (const double compliance : {0.0, 0.2}) {
+    rod::Material material;
+    material.bending_stiffness = coupled_density.bending_stiffness;
+    material.stiffness << 1.2, 1.2, 0.7;
+    material.compliance = compliance;
+    material.stretches = true;
+    const rod::LineSection known =
+        rod::line_section(*obstacle::unit_cylinder(), material, {0.35, 0.2}, momentum, n);
+    const rod::LayeredSection at =
+        rod::LayeredSection::with_momentum(coupled_density, {0.4, 0.2, compliance, 0.3}, 0.35, momentum, n);
+    constexpr double rounding = 1e-14;
+    BOOST_TEST(std::abs(at.pressure.value - known.pressure) < rounding);
+    BOOST_TEST(std::abs(at.normal.value - known.n(0)) < rounding);
+    BOOST_TEST(std::abs(at.stretch.value - material.stretch(known.n(2))) < rounding);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(pressure_balances_the_force_along_the_normal) {
+  // n·N = ν − w p falls by p less the hoop part along any motion that the friction drives: α is what it changes of ν.
+  const rod::Friction friction{0.4, 0.2, 0.3, 0.25};
+  const Eigen::Vector2d momentum(0.4, -0.15), n(1.7, 0.3);
+  const rod::LayeredSection at =
+      rod::LayeredSection::with_momentum(coupled_density, friction, 0.35, momentum, n);
+  constexpr double h = 1e-5;
+  const auto normal = [&](double p) {
+    const rod::LayeredSection there = rod::LayeredSection::with_momentum(
+        coupled_density, friction, 0.35, momentum - Eigen::Vector2d(0.0, at.across.value * p),
+        n - p * Eigen::Vector2d(at.drag[0].value, at.drag[1].value));
+    return there.normal.value;
+  };
+  BOOST_TEST(std::abs((normal(-h) - normal(h)) / (2.0 * h) - at.share.value) < 1e-9);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
