@@ -318,8 +318,7 @@ double check_arcs(const Solution& solution, const scene::Scene& scene, const Sca
     // A line on nothing; or with what this integration has not: beside a plate, a stretch by the friction along it.
     const bool stretched =
         below && law.stretches() && below->drags() && flat && std::abs(solution.travel_rate) >= tight;
-    if (arc.kind == ArcKind::line && (!below || stretched))
-      found.off_surface.add(NAN);
+    if (arc.kind == ArcKind::line && (!below || stretched)) found.off_surface.add(NAN);
     const Shape pressed = !below ? none : flat ? below->beside_plate() : *below;
     integrate(arc, {law, shapes, pressed}, scales, found);
   }

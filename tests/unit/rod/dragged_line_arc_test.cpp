@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "gathered.hpp"
+#include "windlass/bvp/collocation_arc.hpp"
 
 namespace {
 
