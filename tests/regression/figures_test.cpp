@@ -41,7 +41,7 @@ BOOST_AUTO_TEST_CASE(every_figure_is_made_with_data_script_and_statements) {
   const auto figs = folder.path() / "figs";
   const std::string page = slurp(figs / "index.html");
   const auto summary = nlohmann::json::parse(outcome.out);
-  BOOST_TEST(summary["figures"].size() == 13u);
+  BOOST_TEST(summary["figures"].size() == 14u);
   for (const std::string stem : summary["figures"]) {
     BOOST_TEST(slurp(figs / (stem + ".svg")).starts_with("<?xml"), stem);
     BOOST_TEST(std::filesystem::exists(figs / (stem + ".gp")), stem);
