@@ -2,8 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <continuation/branch_switch.hpp>
-
 #include "dragged_start.hpp"
 #include "windlass/equilibrium/search.hpp"
 
@@ -29,14 +27,6 @@ std::vector<Pressing> contacts(double edge, double end, bool middle) {
   return out;
 }
 
-bool known(const std::vector<Started>& states, const Started& state) {
-  const Vector fingerprint = state.problem->fingerprint(state.x, state.p);
-  return std::ranges::any_of(states, [&](const Started& other) {
-    return continuation::same_fingerprint(other.problem->fingerprint(other.x, other.p), fingerprint,
-                                          same_state);
-  });
-}
-
 }  // namespace
 
 std::vector<Started> hanging_arches(const scene::Scene& scene, const std::vector<std::string>& keys) {
@@ -47,6 +37,7 @@ std::vector<Started> hanging_arches(const scene::Scene& scene, const std::vector
   const Started flat = flat_on_plate(whole, keys);
   const chain::Profile shape = flat.problem->profile(flat.x, flat.p);
   const double edge = shape.contacts.back().s;
+  std::vector<Vector> seen;
   std::string failure;
   scene::Scene mirrored = scene;
   mirrored.model.symmetry = scene::Symmetry::mirror;
@@ -58,12 +49,13 @@ std::vector<Started> hanging_arches(const scene::Scene& scene, const std::vector
         const auto found = dragged_on(whole, hanging(shape, end, depth, scene.plate->height),
                                       contacts(edge, end, middle), keys, failure);
         if (!found) continue;
-        const auto on_chain = [&](const scene::Scene& of) {
-          return std::make_shared<RodProblem>(of, true, found->problem->topology(), found->problem->meshes(),
-                                              keys);
-        };
-        auto half = fold(*on_chain(mirrored), found->x, found->p, chain::Symmetry::mirror);
-        if (!half || known(out, *half)) continue;
+        const auto problem = std::make_shared<RodProblem>(mirrored, true, found->problem->topology(),
+                                                          found->problem->meshes(), keys);
+        auto half = fold(*problem, found->x, found->p, chain::Symmetry::mirror);
+        if (!half) continue;
+        const Vector fingerprint = half->problem->fingerprint(half->x, half->p);
+        if (among(seen, fingerprint)) continue;
+        seen.push_back(fingerprint);
         out.push_back(std::move(*half));
       }
   if (scene.mirrored()) return out;

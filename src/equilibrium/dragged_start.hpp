@@ -24,8 +24,9 @@ Started coil_on_plate(const scene::Scene& scene, const std::vector<std::string>&
 std::optional<Started> under_the_plate(const Started& still, const scene::Scene& scene, double friction,
                                        std::string& failure);
 
-/// Coils that hang from the plate on both sides, mirror images of themselves (half chains where the scene asks for the symmetry,
-/// full ones elsewhere), which nothing without friction leads to: from the flat coil bent down, on touches of the cylinder at its outermost contacts and in the middle.
+/// Coils that hang from the plate on both sides, mirror images of themselves, which nothing without friction leads to: from the
+/// flat coil bent down, on touches of the cylinder at its outermost contacts and in the middle. Half chains where the scene asks
+/// for the symmetry, full ones elsewhere.
 std::vector<Started> hanging_arches(const scene::Scene& scene, const std::vector<std::string>& keys);
 
 /// States that the frictionless ones of this tension lead to as the friction grows, of rods on one plate under dead pulls.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "dragged_layout.hpp"
 #include "windlass/rod/quaternion.hpp"
 
 namespace windlass::equilibrium {
@@ -10,8 +11,6 @@ using chain::Stretch;
 using Eigen::Vector3d;
 
 namespace {
-
-constexpr int plate = 1;  // its place among the obstacles
 
 bool holds_spin(scene::EndKind end) { return end != scene::EndKind::moment_free; }
 
@@ -74,13 +73,13 @@ double press(Twisted tail, double moment, bool leftward) {
   const Eigen::Index last = arc.s.size() - 1;
   for (Eigen::Index k = 0; k <= last; ++k) arc.p(k) = moment * tail.curvature_rate(k);
   arc.kind = ArcKind::line;
-  arc.obstacle = plate;
+  arc.obstacle = plate_obstacle;
   arc.force = arc.plate_force = moment * (tail.curvature(last) - tail.curvature(0));
   return std::abs(moment * tail.curvature(leftward ? 0 : last));
 }
 
 void press_end(JointRecord& end, double force) {
-  end.obstacle = plate;
+  end.obstacle = plate_obstacle;
   end.normal = -Vector3d::UnitZ();
   end.force = force;
 }

@@ -8,8 +8,8 @@
 /// Friction with a moment about the centre line, `rod.radius` away from where it acts (PHYSICS, "The moment of the friction").
 namespace windlass::equilibrium {
 
-/// Is the moment honoured on these contacts? At isolated touches, not along lines, and not where cylinder and plate hold the
-/// rod flat at one place: twisted, it does not lie there.
+/// Is the moment honoured on these contacts? At isolated touches and along lines of the cylinder, not where strands touch, nor where
+/// cylinder and plate hold the rod at one place; a coil that lies in the plate all along has it by other means (flat_torsion.hpp).
 bool carries_couple(const Topology& topology);
 
 /// What is said of a scene whose states would need it elsewhere.
@@ -17,7 +17,7 @@ std::string couple_not_carried();
 /// What is said where a rod on a plate's outer edge would be followed in its radius, which the edge's is, too.
 std::string rim_not_thickened();
 
-/// Steady states of touches alone, followed from those without the moment by the radius at which friction acts.
+/// Steady states that have left the plate, followed from those without the moment by the radius at which friction acts.
 /// @param searched  for people: what was followed, and what was not
 std::vector<Started> dragged_with_couple(const scene::Scene& scene, const std::vector<std::string>& keys,
                                          std::string& searched);

@@ -11,6 +11,7 @@
 #include "end_events.hpp"
 #include "flat_torsion.hpp"
 #include "friction_couple.hpp"
+#include "not_built.hpp"
 #include "stretched_drag.hpp"
 #include "windlass/chain/singular_matrix.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
@@ -129,27 +130,7 @@ bool RodProblem::coupled() const {
   return scene_.friction_arm() > 0.0 || (varies("rod.radius") && scene_.friction_has_couple());
 }
 
-bool RodProblem::flat() const { return !spatial_ || lies_in_plate(topology_); }
-
-namespace {
-
-/// Does a strand that lies in a plate touch another? All that is free beside it is taken to lie there, which twisted it does not.
-bool strands_in_plate(const Topology& topology) {
-  for (int j = 0; j < static_cast<int>(topology.on.size()); ++j)
-    if (topology.seat(j).strand != 0 && topology.seat(j).flat >= 0) return true;
-  return false;
-}
-
-std::string not_built(std::string_view key) {
-  if (key == "rod.extensible") return stretch_not_carried();
-  if (key == "plate.2.height")
-    return "plate.2.height: the second plate and the cylinder cannot hold the rod at one place";
-  if (key == "plate.outer_radius") return rim_not_thickened();
-  if (key == "ends.kind") return "ends.kind: strands that touch in a plate are built for ends free of moment";
-  return couple_not_carried();
-}
-
-}  // namespace
+bool RodProblem::flat(const Topology& topology) const { return !spatial_ || lies_in_plate(topology); }
 
 bool RodProblem::asks_for(double Loads::*field) const {
   return base_.*field != 0.0 || std::find(fields_.begin(), fields_.end(), field) != fields_.end();
@@ -160,8 +141,7 @@ bool RodProblem::layered() const {
 }
 
 const char* RodProblem::missing_on(const Topology& topology) const {
-  if (coupled() && !(spatial_ && carries_couple(topology)) &&
-      !((!spatial_ || lies_in_plate(topology)) && stays_in_plate(topology, scene_)))
+  if (coupled() && !(flat(topology) ? stays_in_plate(topology, scene_) : carries_couple(topology)))
     return "cylinder.friction_couple";
   for (int j = 0; j < static_cast<int>(topology.on.size()); ++j)
     if (obstacle::plate_at(scene_, topology.seat(j).flat) == 2 ||
@@ -185,7 +165,7 @@ void RodProblem::rebuild() {
   if (varies("rod.weight_z")) rod_.weighs[2] = true;
   base_ = loads_of(scene_);
   if (const char* key = missing_on(topology_)) throw NoEquilibrium(not_built(key));
-  rod_.coupled = layered() && !flat();
+  rod_.coupled = layered() && !flat(topology_);
   chain_ = chain::build_chain(rod_, topology_, meshes_);
   chain_->let_slide(slides_);
   finer_.reset();
@@ -215,7 +195,7 @@ Loads RodProblem::loads(const Vector& p) {
     if (fields_[k]) loads.*fields_[k] = p(k);
   if (loads.arm != 0.0) {
     if (scene_.self_contact) loads.radius = loads.arm;
-    if (flat()) loads.arm = 0.0;  // the torsion of a flat coil acts back on nothing
+    if (flat(topology_)) loads.arm = 0.0;  // the torsion of a flat coil acts back on nothing
   }
   if (!scene_.slides()) loads.friction = 0.0;  // of a cylinder that stands it only enters F0
   if (scene_.has_cylinder && !(loads.tension > 0.0)) throw std::domain_error("the tension is not positive");

@@ -9,6 +9,7 @@
 #include "entry.hpp"
 #include "friction_couple.hpp"
 #include "line_touches.hpp"
+#include "not_built.hpp"
 #include "opened_entry.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
 #include "windlass/equilibrium/opening.hpp"
@@ -333,12 +334,7 @@ RodProblem::After RodProblem::after_event(const ContactEvent& event, const chain
         end.after = next.topology.text() + " (" + rim_not_thickened() + ")";
         return {end};
       }
-      beyond = fmt::format("{} ({} is not built for {})", next.topology.text(), key,
-                           key == std::string_view("rod.extensible") ? "lines that friction stretches"
-                           : key == std::string_view("plate.2.height")
-                               ? "places where the cylinder holds the rod, too"
-                           : key == std::string_view("ends.kind") ? "strands that touch in a plate"
-                                                                  : "lines");
+      beyond = fmt::format("{} ({} is not built for {})", next.topology.text(), key, contacts_not_built(key));
       continue;
     }
     continuation::Transition transition;

@@ -88,6 +88,12 @@ double potential(const Solution& at, const scene::Scene& scene) {
          first.n.col(0).dot(first.r.col(0));
 }
 
+bool among(const std::vector<Vector>& fingerprints, const Vector& fingerprint) {
+  return std::ranges::any_of(fingerprints, [&](const Vector& other) {
+    return continuation::same_fingerprint(other, fingerprint, same_state);
+  });
+}
+
 void include(Search& search, Started at) {
   Vector fingerprint = at.problem->fingerprint(at.x, at.p);
   for (const FoundState& known : search.states)

@@ -183,10 +183,7 @@ Equilibria solve_dragged(const scene::Scene& scene, const std::vector<std::strin
   std::vector<Vector> seen;  // without friction thick states may lead to the coil on its plate, too
   for (Started& state : found) {
     const Vector fingerprint = state.problem->fingerprint(state.x, state.p);
-    if (std::ranges::any_of(seen, [&](const Vector& other) {
-          return continuation::same_fingerprint(other, fingerprint, same_state);
-        }))
-      continue;
+    if (among(seen, fingerprint)) continue;
     seen.push_back(fingerprint);
     Solution solution =
         finish(state, !why.empty() ? "there is no flat coil"

@@ -32,10 +32,9 @@ bool carries_stretch(const Topology& topology, chain::Travel travel) {
 
 std::string stretch_not_carried() {
   return "rod.extensible: a rod that stretches is dragged at isolated touches, along lines of the cylinder, "
-         "or "
-         "along lines that lie on the plate, too; not along lines that leave the plate, nor along lines of a "
-         "rod "
-         "that runs along itself: false leaves the stretch out";
+         "or along lines that lie on the plate, too; not along lines that leave the plate, nor along lines "
+         "of "
+         "a rod that runs along itself: false leaves the stretch out";
 }
 
 std::vector<Started> dragged_with_stretch(const scene::Scene& scene, const std::vector<std::string>& keys,

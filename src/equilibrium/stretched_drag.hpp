@@ -8,8 +8,8 @@
 /// Rods that stretch while a cylinder slips along them (PHYSICS, "Stretch while sliding").
 namespace windlass::equilibrium {
 
-/// Are the equations of a rod that stretches built for these contacts? Not along lines where friction, or another strand,
-/// acts along the rod: those that leave the plate, and in a rod that runs along itself all but those of the flat coil, which by
+/// Are the equations of a rod that stretches built for these contacts? Along lines of the cylinder not beside strands, where a line
+/// leaves the plate or with others that lie on it; in a rod that runs along itself along none but those of the flat coil, which by
 /// its symmetry does not.
 bool carries_stretch(const Topology& topology, chain::Travel travel);
 

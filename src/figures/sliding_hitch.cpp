@@ -38,7 +38,6 @@ namespace {
 /// One state of the knot that a cylinder slides through, and R_tot of the knot that nothing drags, interpolated.
 struct Beside {
   double T, strength, still;  ///< F0/μ, R_tot [EI/ρ²]
-  int index;
 };
 
 std::vector<Beside> beside(const Study& study, const Thickness& thickness) {
@@ -48,7 +47,7 @@ std::vector<Beside> beside(const Study& study, const Thickness& thickness) {
   std::vector<Beside> out;
   for (const output::BranchRow& row : dragged.run.rows)
     if (const auto at = two_turns_at(still, row.T))
-      out.push_back({row.T, strength_of(row, dragged), at->R_tot, row.index.value_or(-1)});
+      out.push_back({row.T, strength_of(row, dragged), at->R_tot});
   return out;
 }
 
@@ -67,7 +66,7 @@ std::vector<Beside> flat_coils(const Study& study, const Angle& angle) {
   std::vector<Beside> out;
   for (const output::BranchRow& row : flat.run.rows)
     if (flat.phi() < M_PI || rod::capstan::line_contact(row.T, flat.phi()))
-      out.push_back({row.T, strength_of(row, flat), rod::capstan::total_force(row.T, flat.phi()), 0});
+      out.push_back({row.T, strength_of(row, flat), rod::capstan::total_force(row.T, flat.phi())});
   return out;
 }
 
@@ -77,37 +76,24 @@ std::string curve(const std::string& run, const char* columns, double width, con
                      width, dashes, colour, title.empty() ? "notitle" : "title '" + title + "'");
 }
 
-Statement statement(const Study& study) {
-  std::string each;
-  bool below = true;
-  for (const Thickness& thickness : thicknesses) {
-    if (thickness.colour == nullptr) continue;
-    const std::vector<Beside> states = beside(study, thickness);
-    std::string some;
-    for (const double tension : {0.1, 0.3, 0.8, 2.0}) {
-      const auto near =
-          std::ranges::min(states, {}, [&](const Beside& s) { return std::abs(s.T - tension); });
-      constexpr double at_all = 0.05;
-      if (std::abs(near.T - tension) > at_all * tension) continue;
-      some +=
-          fmt::format("{}{:.3f} at T = {:.3g}", some.empty() ? "" : ", ", near.strength / near.still, near.T);
-      below = below && near.strength < 1.1 * near.still;
-    }
-    each += fmt::format("{}R/r = {}: {}", each.empty() ? "" : "; ", thickness.name, some);
+/// F0/μ of the dragged knot over R_tot of the one at rest, where there is a state near a tension.
+std::string told(const std::vector<Beside>& states) {
+  std::string text;
+  for (const double tension : {0.1, 0.3, 0.8, 2.0}) {
+    const auto near = std::ranges::min(states, {}, [&](const Beside& s) { return std::abs(s.T - tension); });
+    constexpr double at_all = 0.05;
+    if (std::abs(near.T - tension) > at_all * tension) continue;
+    text +=
+        fmt::format("{}{:.3f} at T = {:.3g}", text.empty() ? "" : ", ", near.strength / near.still, near.T);
   }
-  return {"the strength of the clove hitch is μ times the total normal force of the knot at rest",
-          "F0 of the dragged knot over μ R_tot of the knot without friction, μ = 0.32: " + each,
-          Verdict::differs,
-          "friction changes the shape: loose knots are dragged into ones that hold less, tight ones into "
-          "ones that "
-          "hold a little more"};
+  return text;
 }
 
 }  // namespace
 
 Figure sliding_hitch(const Study& study, const Canvas& canvas) {
   std::vector<std::string> names;
-  std::string still, strengths, together;
+  std::string still, strengths, together, ratios;
   for (const Angle& angle : angles) {
     const std::string run = on_plate_run(angle);
     write(run, flat_coils(study, angle), canvas);
@@ -117,7 +103,9 @@ Figure sliding_hitch(const Study& study, const Canvas& canvas) {
   for (const Thickness& thickness : thicknesses) {
     if (thickness.colour == nullptr) continue;
     const std::string run = sliding_hitch_run(thickness);
-    write(run, beside(study, thickness), canvas);
+    const std::vector<Beside> states = beside(study, thickness);
+    write(run, states, canvas);
+    ratios += fmt::format("{}R/r = {}: {}", ratios.empty() ? "" : "; ", thickness.name, told(states));
     still += curve(run, "1:3", 4.0, "1", "#d0d0d0", "");
     strengths += curve(run, "1:2", 1.8, "1", thickness.colour, fmt::format("R/r = {}", thickness.name));
     together += curve(run, "3:2", 1.6, "(10,6)", thickness.colour,
@@ -137,16 +125,20 @@ Figure sliding_hitch(const Study& study, const Canvas& canvas) {
                   "  plot x with lines lw 5 lc rgb '#d8d8d8' title 'F_0 = μ R_{tot}'" + together +
                   "\n  unset multiplot\n";
   output::run_gnuplot(picture, canvas.folder, canvas.formats);
+  constexpr const char* legend =
+      "F0/μ at μ = 0.32, a plate, travel along itself blocked. (a) Grey: R_tot of the hitch that nothing "
+      "drags, interpolated between computed states; colours: F0/μ of the dragged one. (b) The same, and flat "
+      "coils on their plate against the closed form, where that is defined.";
   return {"sliding-hitch",
           "Sliding strength against the total normal force, and that of the clove hitch with friction in its "
           "shape",
-          "F0/μ at μ = 0.32, a plate, travel along itself blocked. (a) Grey: R_tot of the hitch that nothing "
-          "drags, "
-          "interpolated between computed states; colours: F0/μ of the dragged one. (b) The same, and flat "
-          "coils on "
-          "their plate against the closed form, where that is defined.",
+          legend,
           names,
-          {statement(study)}};
+          {{"the strength of the clove hitch is μ times the total normal force of the knot at rest",
+            "F0 of the dragged knot over μ R_tot of the knot without friction, μ = 0.32: " + ratios,
+            Verdict::differs,
+            "friction changes the shape: loose knots are dragged into ones that hold less, tight ones into "
+            "ones that hold a little more"}}};
 }
 
 }  // namespace windlass::figures

@@ -85,15 +85,15 @@ Pull::Pull(const Setting& setting, double half_length, double h, const Options& 
 
 Pull::~Pull() = default;
 
+bool Pull::settle(VectorXd& unknowns, double damping, bool plates) {
+  return solver_->solve(rod_.fresh_memory(unknowns), {0.0, damping, false, plates}, unknowns) >= 0;
+}
+
 /// Damping that fades: proximal steps, which leave motions that cost nothing where they are.
 bool Pull::relax(VectorXd& unknowns) {
-  Memory memory = rod_.fresh_memory(unknowns);
   constexpr double first = 10.0, last = 1e-6, fade = 0.1;
-  for (double damping = first; damping > last; damping *= fade) {
-    const double tension = rod_.setting.tension;
-    if (solver_->solve(memory, {0.0, damping * tension, false, false}, unknowns) < 0) return false;
-    memory = rod_.fresh_memory(unknowns);
-  }
+  for (double damping = first; damping > last; damping *= fade)
+    if (!settle(unknowns, damping * rod_.setting.tension, false)) return false;
   return true;
 }
 
@@ -104,15 +104,12 @@ bool Pull::squeeze(VectorXd& unknowns, double span) {
   const double room = setting.plate - setting.below, excess = std::max(0.0, span - room);
   if (!std::isfinite(room)) return true;
   const double part = 0.5 * h_, stiff = rod_.stiffness(), fade = 0.3;
-  const auto settle = [&](double damping) {
-    return solver_->solve(rod_.fresh_memory(unknowns), {0.0, damping, false, true}, unknowns) >= 0;
-  };
   const int parts = std::max(1, static_cast<int>(std::ceil(excess / part)));
   for (int k = 1; k <= parts; ++k) {
     setting.below = setting.plate - room - excess * (1.0 - static_cast<double>(k) / parts);
-    if (!settle(stiff)) return false;
+    if (!settle(unknowns, stiff, true)) return false;
   }
-  for (double damping = stiff; damping > setting.tension && settle(damping);) damping *= fade;
+  for (double damping = stiff; damping > setting.tension && settle(unknowns, damping, true);) damping *= fade;
   return true;  // the pull begins with the rod at rest, or brings it there
 }
 

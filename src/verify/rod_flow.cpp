@@ -101,6 +101,17 @@ double layer_width(const Section& section, const Stiffness& stiffness, const Sha
   return shape.along(section.r, stretch * t) * (shape.arm() + soft * c2) / (stretch * (1.0 + soft * c2 * c2));
 }
 
+double polynomial(const Eigen::VectorXd& places, const Eigen::VectorXd& values, double s) {
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < places.size(); ++i) {
+    double term = values(i);
+    for (Eigen::Index k = 0; k < places.size(); ++k)
+      if (k != i) term *= (s - places(k)) / (places(i) - places(k));
+    sum += term;
+  }
+  return sum;
+}
+
 double plane_pressure(const Section& section, const Stiffness& stiffness, const Vector3d& normal) {
   const Eigen::Matrix3d to_body = rotation(section.q).transpose();
   const Vector3d m = to_body * section.m, n = to_body * section.n, N = to_body * normal,
@@ -185,18 +196,8 @@ Section RodFlow::Memory::section(const double* y, double s) const {
 }
 
 double RodFlow::Memory::pressure(const Section& x, double s) const {
-  if (places.size() == 0 && has_layers(stiffness, shape))
-    return taken_by_friction(x, stiffness) / layer_width(x, stiffness, shape);
-  if (places.size() > 0) {
-    double sum = 0.0;
-    for (Eigen::Index i = 0; i < places.size(); ++i) {
-      double term = pressures(i);
-      for (Eigen::Index k = 0; k < places.size(); ++k)
-        if (k != i) term *= (s - places(k)) / (places(i) - places(k));
-      sum += term;
-    }
-    return sum;
-  }
+  if (places.size() > 0) return polynomial(places, pressures, s);
+  if (has_layers(stiffness, shape)) return taken_by_friction(x, stiffness) / layer_width(x, stiffness, shape);
   if (shape.wall()) return plane_pressure(x, stiffness, *shape.wall());
   return stiffness.stretches() ? stretched_surface_pressure(x, stiffness)
                                : surface_pressure(x, stiffness.K[0]);

@@ -25,22 +25,12 @@ VectorXd radau_points() {
   return 0.5 + 0.5 * Eigen::SelfAdjointEigenSolver<MatrixXd>(jacobi).eigenvalues().array();
 }
 
-double polynomial(const VectorXd& places, const VectorXd& values, double s) {
-  double sum = 0.0;
-  for (Eigen::Index i = 0; i < places.size(); ++i) {
-    double term = values(i);
-    for (Eigen::Index k = 0; k < places.size(); ++k)
-      if (k != i) term *= (s - places(k)) / (places(i) - places(k));
-    sum += term;
-  }
-  return sum;
-}
-
 }  // namespace
 
 SlavedPiece find_slaved(RodFlow& flow, const Stiffness& law, const Shape& shape, const Section& start,
                         double length, double guess, bool backward, int looks) {
-  const VectorXd places = length * radau_points();
+  static const VectorXd unit = radau_points();
+  const VectorXd places = length * unit;
   VectorXd p = VectorXd::Constant(points, guess);
   const auto off = [&](const VectorXd& pressures) {
     VectorXd out(points);

@@ -125,8 +125,6 @@ class RodProblem final : public continuation::Problem {
   const char* missing_on(const Topology& topology) const;
   /// Does the friction of a cylinder that slides have a moment about the centre line, or may it get one?
   bool coupled() const;
-  /// Does the rod lie in a plane by its contacts alone? The moment of the friction is then added on recording.
-  bool flat() const;
   /// Does friction turn or stretch the rod along lines, or may it, so that their pressure has layers?
   bool layered() const;
   /// Does the cylinder slip along the rod? Its force then has no potential, and no index counts anything.
@@ -202,6 +200,11 @@ class RodProblem final : public continuation::Problem {
   std::optional<Vector> moved_to(std::vector<chain::ArcMesh> meshes, const Vector& x, const Vector& p,
                                  bool within);
 
+  /// Is this load not zero, or may it be?
+  bool asks_for(double contact::Loads::*field) const;
+  /// Does the rod lie in a plane by such contacts alone? The moment of the friction is then added on recording.
+  bool flat(const Topology& topology) const;
+
   scene::Scene scene_;
   bool spatial_;
   Topology topology_;
@@ -210,8 +213,6 @@ class RodProblem final : public continuation::Problem {
   chain::RodKind rod_;
   obstacle::MovingPlate second_plate_;  ///< among rod_'s obstacles, if there is one
   contact::Loads base_;
-  /// Is it not zero, or may it be?
-  bool asks_for(double contact::Loads::*field) const;
   std::vector<double contact::Loads::*> fields_;  ///< where each parameter lives; null: rebuilds the rod
   SnesNewton newton_;
   std::unique_ptr<chain::Chain> chain_, finer_;  ///< finer_: one more stage, for the error estimate

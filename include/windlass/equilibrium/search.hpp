@@ -14,6 +14,9 @@ inline constexpr double same_state = 1e-6;
 /// Of potentials, relative: states of one family differ by rounding, others by more.
 inline constexpr double same_potential = 1e-11;
 
+/// Is a state of this fingerprint among these?
+bool among(const std::vector<Vector>& fingerprints, const Vector& fingerprint);
+
 /// One of them.
 struct FoundState {
   Started at;

@@ -56,11 +56,11 @@ struct PlaceLoad {
 /// Unknowns: 3 (M + 3) coordinates of control points, M tensions N_e, and τ where the travel is blocked.
 /// Equations, as many:
 ///
-///     ∂E/∂c − Σ_q w_q ∂r_q/∂c · (p N + q − κ [z − z_p]₊ e_z + κ [z₂ − z]₊ e_z − γ (r − r⁰)) = 0,   l_e = h_e (1 + ε_e),
-///     ½ (r_R·e_R − r_L·e_L) = 0,
+///     ∂E/∂c − Σ_q w_q ∂r_q/∂c · (p N + q − κ [z − z_p]₊ e_z + κ [z₂ − z]₊ e_z − γ (r − r⁰)) = 0,
+///     l_e = h_e (1 + ε_e),   ½ (r_R·e_R − r_L·e_L) = 0,
 ///
-/// E = Σ b_e + N_e (l_e − h_e) − ½ k h_e (N_e − b_e/h_e)² − (T + τ) e_R·r_R − (T − τ) e_L·r_L; p = κ_c [1 − ϱ]₊, N outward, q by Coulomb's
-/// law (`Coulomb`) from the slip g = g⁰ + (e_θ·(r − r⁰), z − z⁰ − ΔU), all of it at the end of the step (backward Euler),
+/// E = Σ b_e + N_e (l_e − h_e) − ½ k h_e (N_e − b_e/h_e)² − (T + τ) e_R·r_R − (T − τ) e_L·r_L, b_e = ∫ ½ κ² ds,
+/// ε_e = k (N_e − b_e/h_e); p = κ_c [1 − ϱ]₊, N outward, q by Coulomb's law (`Coulomb`) from the slip g = g⁰ + (e_θ·(r − r⁰), z − z⁰ − ΔU), all of it at the end of the step (backward Euler),
 /// q in the end's tangent plane. The matrix is exact and unsymmetric. The beds follow the mesh as in
 /// `discrete_rod::minimise`, κ = 4/(3/2 h)⁴: forces are off by O(h³). Strands of a thick rod press on each other without friction, by
 /// the same bed in the distance d from each place to the nearest of another strand, −½ κ [2r − d]₊ ∂d/∂c, half of it from either.

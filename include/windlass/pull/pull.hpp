@@ -77,6 +77,8 @@ class Pull {
   Memory memory() const;
 
  private:
+  /// One step without friction against a damping. @return whether Newton's method converged
+  bool settle(Eigen::VectorXd& unknowns, double damping, bool plates);
   bool relax(Eigen::VectorXd& unknowns);
   /// @param span  height of the rod, which has just come under the first plate [ρ]
   bool squeeze(Eigen::VectorXd& unknowns, double span);

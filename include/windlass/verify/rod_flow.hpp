@@ -59,6 +59,9 @@ double taken_by_friction(const Section& section, const Stiffness& stiffness);
 /// And w = mu d·t (r + k B c²)/(λ D).
 double layer_width(const Section& section, const Stiffness& stiffness, const Shape& shape);
 
+/// Through these places and values, at s (Lagrange).
+double polynomial(const Eigen::VectorXd& places, const Eigen::VectorXd& values, double s);
+
 /// Contact force per length that keeps the centreline on a plane with the normal N, for any section and natural shape.
 ///
 /// The constraint N·t = 0 holds along the rod, and so does its third derivative, with t = R e₃ and R' = R [u]×. In the body
