@@ -197,6 +197,9 @@ Equilibria solve_dragged(const scene::Scene& scene, const std::vector<std::strin
       "; {} steady states were found ({}), which of them a pull from rest "
       "selects was not decided",
       out.states.size(), searched);
+  if (scene.rod_radius > 0.0 && scene.ends_turn_freely() && !scene.motion.friction_couple)
+    out.answer.model_reason +=
+        "; the friction has no moment about the centre line, which ends that turn freely do not balance";
   return out;
 }
 

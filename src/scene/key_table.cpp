@@ -280,11 +280,8 @@ std::vector<Key> load_keys() {
   const Key couple = truth(
       "cylinder.friction_couple",
       "while sliding, of a rod with a radius: has the friction, which acts at the rod's surface, a moment "
-      "about its "
-      "centre line? needs an end that does not spin; not built for flat coils on the plate; default: true",
-      [](const Scene& scene) -> std::optional<double> {
-        return scene.motion.friction_couple ? std::nullopt : std::optional(0.0);
-      },
+      "about its centre line? default: where an end that does not spin holds it",
+      [](const Scene& scene) -> std::optional<double> { return scene.motion.friction_couple; },
       [](Scene& scene, double value) { scene.motion.friction_couple = value != 0.0; });
   return {
       derived("cylinder.radius", Dimension::length, positive, "radius R; dimensionless: 1 - rod.radius"),

@@ -124,7 +124,7 @@ void check_knot(const Document& document, const Scene& scene) {
     forbid(document, document.find("load.angle") ? "load.angle" : key,
            "must be \"4 pi\" with knot.kind = \"clove_hitch\": its ends are pulled along +-e_x");
   for (const char* end : {"ends.kind", "ends.left", "ends.right"})
-    if (scene.ends.left_kind() != EndKind::moment_free || scene.ends.right_kind() != EndKind::moment_free)
+    if (!scene.ends_turn_freely())
       forbid(document, end, "must be \"moment_free\" for a knot");
   if (!scene.rod.isotropic_straight())
     forbid(document, key, "needs an isotropic, naturally straight rod: its start is relaxed without torsion");
@@ -139,9 +139,9 @@ void check_friction_couple(const Scene& scene, const Refuse& refuse) {
   const char* key = "cylinder.friction_couple";
   if (!(scene.friction_arm() > 0.0) && !(scene.friction_has_couple() && starts_in(scene, "rod.radius")))
     return;
-  if (scene.ends.left_kind() == EndKind::moment_free && scene.ends.right_kind() == EndKind::moment_free)
+  if (scene.ends_turn_freely())
     refuse(key,
-           "must be false where both ends turn freely: nothing balances the moment of the friction about the "
+           "must not be true where both ends turn freely: nothing balances the moment of the friction about the "
            "rod's tangent; ends.kind = \"clamped\" or \"spin_held\" holds it");
 }
 

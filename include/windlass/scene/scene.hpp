@@ -67,7 +67,8 @@ struct Plate {
 /// How the cylinder moves.
 struct Motion {
   Sliding sliding = Sliding::none;  ///< along its axis, slipping everywhere on the rod
-  bool friction_couple = true;      ///< of a thick rod: moment of the friction about its centre line
+  /// Of a thick rod: has the friction a moment about its centre line? Not given: where an end holds it.
+  std::optional<bool> friction_couple;
 
   bool operator==(const Motion&) const = default;
 };
@@ -188,12 +189,17 @@ struct Scene {
   bool obstacles_keep_half_turn() const;
   /// Is there no torsion anywhere? Then the centre line alone is the rod, as the thick discrete rod has it.
   bool free_of_torsion() const {
-    return ends.left_kind() == EndKind::moment_free && ends.right_kind() == EndKind::moment_free &&
-           rod.isotropic_straight();
+    return ends_turn_freely() && rod.isotropic_straight();
   }
   bool has_obstacles() const { return has_cylinder || !walls.empty(); }
   double dragging_friction() const { return slides() ? friction.value_or(0.0) : 0.0; }  ///< mu of what slips
-  bool friction_has_couple() const { return slides() && motion.friction_couple; }
+  /// Do both ends turn freely? Then nothing balances a moment about the rod's tangent.
+  bool ends_turn_freely() const {
+    return ends.left_kind() == EndKind::moment_free && ends.right_kind() == EndKind::moment_free;
+  }
+  bool friction_has_couple() const {
+    return slides() && motion.friction_couple.value_or(!ends_turn_freely());
+  }
   /// Distance from the centre line at which friction acts, where its moment about it counts [ρ].
   double friction_arm() const { return friction_has_couple() ? rod_radius : 0.0; }
 
