@@ -158,6 +158,19 @@ void BranchRecorder::on_point(const Branch& branch, const Point& point) {
   resumed_ = Clock::now();
 }
 
+namespace {
+
+/// What the mesh, and the touches that stand for lines, have moved a special point by, as far as it is known.
+double share_of_mesh(const RodProblem& problem, const Point& point) {
+  if (point.type != PointType::event)
+    return equilibrium::singular_precision(problem, point.x, point.p, point.type, point.multiplicity)
+        .value_or(0.0);
+  return equilibrium::event_precision(problem, point.x, point.p, point.event).value_or(0.0) +
+         equilibrium::layout_precision(problem, point.x, point.p, point.event).value_or(0.0);
+}
+
+}  // namespace
+
 void BranchRecorder::on_special_point(const Branch& branch, const Point& point) {
   pause();
   output::SpecialPoint entry;
@@ -169,12 +182,7 @@ void BranchRecorder::on_special_point(const Branch& branch, const Point& point) 
   entry.phi = capstan ? last_.phi : std::nan("");
   auto& problem = dynamic_cast<RodProblem&>(*point.problem);
   entry.parameter = problem.as_given(point.p(0));
-  entry.precision = problem.as_given(point.precision);
-  if (point.type == PointType::event) {
-    const auto of_mesh = equilibrium::event_precision(problem, point.x, point.p, point.event);
-    const auto of_touches = equilibrium::layout_precision(problem, point.x, point.p, point.event);
-    entry.precision += problem.as_given(of_mesh.value_or(0.0)) + problem.as_given(of_touches.value_or(0.0));
-  }
+  entry.precision = problem.as_given(point.precision + share_of_mesh(problem, point));
   entry.multiplicity = std::max(
       1, point.type == PointType::branch_point ? std::max(point.multiplicity, kernel_) : point.multiplicity);
   entry.before = point.before;

@@ -287,7 +287,7 @@ double RodFlow::virial() const {
   return memory_->loaded() ? N_VGetArrayPointer(memory_->state)[memory_->virial_at()] : 0.0;
 }
 
-bool RodFlow::weighs() const { return memory_->stiffness.weighs(); }
+const Stiffness& RodFlow::stiffness() const { return memory_->stiffness; }
 
 bool RodFlow::on_wall() const { return memory_->shape.wall().has_value(); }
 

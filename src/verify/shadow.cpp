@@ -117,12 +117,16 @@ Value cubic(const Value& a, const Value& rate_a, const Value& b, const Value& ra
          h * x * x * (x - 1) * rate_b;
 }
 
-/// First guess on a free arc.
-Section guess_free(const Section& a, const Section& b, double h, double x) {
+/// First guess beside a cylinder or on a plane. By `turn` the frame turns about the tangent on the way, which where samples are
+/// far apart may be more than half a turn.
+Section guess_free(const Section& a, const Section& b, double turn, double h, double x) {
+  const auto about_tangent = [](double angle) {
+    return Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitZ()));
+  };
   Section section;
   section.r = cubic<Vector3d>(a.r, tangent(a), b.r, tangent(b), h, x);
   const Eigen::Quaterniond qa(a.q[0], a.q[1], a.q[2], a.q[3]), qb(b.q[0], b.q[1], b.q[2], b.q[3]);
-  const Eigen::Quaterniond q = qa.slerp(x, qb);
+  const Eigen::Quaterniond q = qa.slerp(x, qb * about_tangent(-turn)) * about_tangent(x * turn);
   section.q << q.w(), q.x(), q.y(), q.z();
   section.m = cubic<Vector3d>(a.m, a.n.cross(tangent(a)), b.m, b.n.cross(tangent(b)), h, x);
   section.n = a.n;
@@ -167,13 +171,14 @@ double unrolled(double value, double expected) {
 }
 
 /// First guesses on a line arc stay on the cylinder, also where the samples are several turns apart.
-std::vector<Section> guesses_line(const Section& first, const Section& last, double h, int pieces) {
+std::vector<Section> guesses_line(const Section& first, const Section& last, double turn, double h,
+                                  int pieces) {
   OnSurface a(first), b(last);
   const auto round = [](const OnSurface& x) { return std::cos(x.inclination); };
   // the Darboux frame turns about t at the rate sin ψ cos ψ; an untwisted rod does not
   const auto turning = [](const OnSurface& x) { return -std::sin(x.inclination) * std::cos(x.inclination); };
   b.angle = unrolled(b.angle, a.angle + 0.5 * h * (round(a) + round(b)));
-  b.turn = unrolled(b.turn, a.turn + 0.5 * h * (turning(a) + turning(b)));
+  b.turn = unrolled(b.turn, a.turn + turn + 0.5 * h * (turning(a) + turning(b)));
   std::vector<Section> sections;
   for (int k = 0; k <= pieces; ++k) {
     const double x = static_cast<double>(k) / pieces;
@@ -192,12 +197,12 @@ std::vector<Section> guesses_line(const Section& first, const Section& last, dou
   return sections;
 }
 
-std::vector<Section> guesses(bool round_cylinder, const Section& first, const Section& last, double h,
-                             int pieces) {
-  if (round_cylinder) return guesses_line(first, last, h, pieces);
+std::vector<Section> guesses(bool round_cylinder, const Section& first, const Section& last, double turn,
+                             double h, int pieces) {
+  if (round_cylinder) return guesses_line(first, last, turn, h, pieces);
   std::vector<Section> sections;
   for (int k = 0; k <= pieces; ++k)
-    sections.push_back(guess_free(first, last, h, static_cast<double>(k) / pieces));
+    sections.push_back(guess_free(first, last, turn, h, static_cast<double>(k) / pieces));
   return sections;
 }
 
@@ -207,10 +212,11 @@ Shadow find_shadow(RodFlow& flow, equilibrium::ArcKind kind, const Section& firs
                    double h, double growth) {
   constexpr int most_pieces = 2000, most_iterations = 8;
   const int pieces = std::clamp(static_cast<int>(std::ceil(growth * h / 3.0)), 2, most_pieces);
-  const Packing packing(kind == equilibrium::ArcKind::free && !flow.weighs(), first, growth);
+  const Packing packing(kind == equilibrium::ArcKind::free && !flow.stiffness().weighs(), first, growth);
   Shooting shooting{packing, flow, h / pieces, {}};
   const bool round_cylinder = kind == equilibrium::ArcKind::line && !flow.on_wall();
-  for (const Section& section : guesses(round_cylinder, first, last, h, pieces))
+  const double turn = 0.5 * h * (flow.stiffness().strain(first)(2) + flow.stiffness().strain(last)(2));
+  for (const Section& section : guesses(round_cylinder, first, last, turn, h, pieces))
     shooting.stations.push_back(packing.pack(section));
   // of the two quaternions of the last frame, the one that the trajectory arrives at
   Section goal = last;

@@ -242,6 +242,32 @@ BOOST_AUTO_TEST_CASE(a_full_chain_follows_odd_and_asymmetric_arms) {
   BOOST_TEST(odd_of_half == odd);  // which the half chain itself cannot follow: arms on the full chain
 }
 
+// Drawn on two meshes: what special points have moved by is within the precisions printed.
+BOOST_AUTO_TEST_CASE(printed_precisions_hold_what_the_mesh_moves) {
+  const auto drawn = [](const char* tolerance) {
+    const TemporaryFolder folder;
+    draw(folder, "capstan-4pi", {"model.tolerance=" + std::string(tolerance)});
+    return nlohmann::json::parse(slurp(folder.path() / "run" / "special_points.json"));
+  };
+  const nlohmann::json coarse = drawn("1e-5"), fine = drawn("1e-11");
+  int folds = 0, branch_points = 0;
+  for (const auto& point : coarse) {
+    folds += point["type"] == "fold";
+    branch_points += point["type"] == "branch_point";
+    double excess = HUGE_VAL;
+    for (const auto& other : fine) {
+      if (other["type"] != point["type"] || other["before"] != point["before"] ||
+          other["after"] != point["after"])
+        continue;
+      const double apart = std::abs(point["T"].get<double>() - other["T"].get<double>());
+      excess = std::min(excess, apart - point["precision"].get<double>() - other["precision"].get<double>());
+    }
+    BOOST_TEST(excess <= 0.0, point["label"] << " of " << point["type"] << " moves");
+  }
+  BOOST_TEST(folds >= 1);
+  BOOST_TEST(branch_points >= 4);
+}
+
 // Tails so short that they resist sliding: the half chain's last odd point, at T = 0.1131259258 on the full chain
 // (`diagram` of the same with model.symmetry="none"); held against sliding the rod would lose stability at 0.1291656.
 BOOST_AUTO_TEST_CASE(an_odd_point_of_a_half_chain_is_that_of_a_rod_free_to_slide) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <continuation/point.hpp>
 #include <optional>
 #include <string>
 
@@ -13,6 +14,10 @@ namespace windlass::equilibrium {
 /// @param event  its name, see ContactEvent::name
 std::optional<double> event_precision(const RodProblem& problem, const Vector& x, const Vector& p,
                                       const std::string& event);
+
+/// The same of a fold or a branch point of that multiplicity. Nothing where it is not found on the finer mesh.
+std::optional<double> singular_precision(const RodProblem& problem, const Vector& x, const Vector& p,
+                                         continuation::PointType type, int multiplicity);
 
 /// The same for the touches that stand for lines between strands (PHYSICS, "Lines between turns"): the strands are nearer between them,
 /// and a line's end is off by the root of that. Nothing where there are none.

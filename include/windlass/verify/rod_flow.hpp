@@ -98,7 +98,7 @@ class RodFlow {
   /// ∫ (ε n·d3 − 2 weight·r) ds since the restart: what stretch and weight have of the virial [EI/ρ]
   double virial() const;
   bool on_wall() const;
-  bool weighs() const;
+  const Stiffness& stiffness() const;
 
  private:
   struct Memory;
