@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <fstream>
 #include <optional>
@@ -133,7 +134,11 @@ Entry parse_override(const std::string& text) {
     if (parsed.size() == 1 && !parsed.begin()->second.is_table())
       return make_entry(key, "--set", parsed.begin()->second);
   } catch (const toml::parse_error&) {
-    // not a TOML value: a bare word
+    // A bare word, or a number that TOML does not know as one: .5 and 5.
+    double number = 0.0;
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+    if (error == std::errc() && end == value.data() + value.size())
+      return make_entry(key, "--set", toml::value<double>(number));
   }
   return {key, "--set", value, value};
 }

@@ -143,6 +143,8 @@ BOOST_AUTO_TEST_CASE(overrides_replace_and_add) {
   BOOST_TEST(scene.rod.infinite());
   BOOST_CHECK(scene.ends.kind == EndKind::clamped);
   BOOST_TEST(scene.title == "other words");
+  for (const auto& [value, number] : {std::pair{".5", 0.5}, {"5.", 5.0}, {"5e-1", 0.5}})
+    BOOST_TEST(read(dimensionless, {std::string("load.tension=") + value}).load.tension == number);
 }
 
 BOOST_AUTO_TEST_CASE(a_branch_says_where_the_scene_starts) {
