@@ -134,12 +134,13 @@ void fill_between_touches(std::vector<ArcRecord>& arcs, std::size_t k, Placed& b
   const ArcRecord &left = arcs[k - 1], &right = arcs[k + 1];
   ArcRecord& arc = arcs[k];
   const Vector3d rest = left.n.rightCols<1>() - right.n.col(0) - before.push - after.push;
-  JointRecord& here = before.record;
-  if (here.obstacle >= 0) here.force = after.record.force = 0.5 * rest.dot(here.normal);
+  const JointRecord& here = before.record;
+  const Vector3d share = here.obstacle >= 0 ? Vector3d(0.5 * rest) : Vector3d::Zero();  // with its friction
+  before.record.force = after.record.force = share.dot(here.normal);
   arc.r.colwise() = Vector3d(left.r.rightCols<1>());
   arc.q.colwise() = Vector4d(left.q.rightCols<1>());
   arc.m.colwise() = Vector3d(left.m.rightCols<1>());
-  arc.n.colwise() = Vector3d(left.n.rightCols<1>() - before.push - here.force * here.normal);
+  arc.n.colwise() = Vector3d(left.n.rightCols<1>() - before.push - share);
   arc.p.setConstant(left.p(left.p.size() - 1));
   arc.force = 0.0;
 }
