@@ -86,6 +86,18 @@ bool overlaps_between(Entry& at, int link) {
   });
 }
 
+/// Is the state on the branch that leaves the event? With half the length it is nearer to it then, by half or more. Newton's method
+/// may end on a branch that has an arc of this length elsewhere.
+bool leaves_event(const Entry& entry, int link, double event) {
+  constexpr double nearer = 0.75;
+  const double away = std::abs(entry.p(0) - event);
+  Entry half = entry;
+  half.problem = std::static_pointer_cast<RodProblem>(entry.problem->clone());
+  const double length = 0.5 * length_of(half, link);
+  const bool solved = tried([&] { return solve_at_length(*half.problem, half.x, half.p, link, length); });
+  return !solved || std::abs(half.p(0) - event) <= nearer * away;
+}
+
 }  // namespace
 
 std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, int depth, bool as_long,
@@ -115,6 +127,7 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, i
   const Topology& topology = entry.problem->topology();
   const std::vector<ContactEvent> events = contact_events(shape, topology);
   if (admissible(events)) {
+    if (!in_place && !leaves_event(entry, opened.front(), p)) return std::nullopt;
     if (!as_long) adjust_length(entry, opened.front());
     return entry;
   }

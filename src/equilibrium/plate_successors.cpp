@@ -137,7 +137,14 @@ std::vector<Successor> line_reaches_or_leaves(const Meeting& at) {
     if (const auto closed = flat_line_closes(at)) return {*closed};
   Strip next = strip;
   next.parts[link].fresh = true;
-  next.s[at.outer()] = at.beyond(at.inner(), 0.05);
+  const auto of_lengths = [&] {
+    std::vector<Successor> out;
+    for (const double length : {0.05, 1e-2, 2e-3}) {
+      next.s[at.outer()] = at.beyond(at.inner(), length);
+      out.push_back(next.successor());
+    }
+    return out;
+  };
   const int cylinder = strip.on[at.line()].obstacle;
   if (strip.parts[link].kind == Stretch::gap && at.on_plate(at.outer())) {
     const int plate = strip.on[at.outer()].obstacle;
@@ -145,7 +152,7 @@ std::vector<Successor> line_reaches_or_leaves(const Meeting& at) {
     if (at.line_on_plate()) next.parts[at.tail()].kind = Stretch::gap;
     next.on[link] = next.on[link + 1] = chain::Seat{cylinder};
     next.on[link].flat = plate;
-    return {next.successor()};
+    return of_lengths();
   }
   if (strip.is_line(link) && strip.on[link].flat >= 0 && strip.on[at.line()].flat < 0) {
     const chain::Seat plate{strip.on[link].flat};
@@ -154,7 +161,7 @@ std::vector<Successor> line_reaches_or_leaves(const Meeting& at) {
     if (between_touches) next.parts[at.tail()].kind = Stretch::line;
     next.on[at.inner()] = chain::Seat{cylinder};
     next.on[at.outer()] = plate;
-    return {next.successor()};
+    return of_lengths();
   }
   return {};
 }
