@@ -168,7 +168,7 @@ std::optional<double> beyond_carried(const Profile& profile, int link, bool begi
     if (c.coupling >= 0 || (obstacle >= 0 && c.obstacle != obstacle)) return std::nullopt;
     obstacle = c.obstacle;
     ++(c.edge ? edges : touches);
-    if (c.edge) force += c.force;
+    if (c.edge) force += c.force + c.layer;
   }
   const bool about_mid = begins_at_mid && edges == 1 && touches == 0,
              beside_touch = edges == 1 && touches == 1;
@@ -211,8 +211,8 @@ double least_under(const Profile& profile, int line) {
   constexpr double rounding = 1e-9, most = 10.0 * least_length;
   double least = least_length;
   for (const Contact& c : profile.contacts)
-    if (c.edge && (c.joint == line || c.joint == line + 1) && c.force > 0.0)
-      least = std::max(least, std::min(most, rounding / (c.force * profile.unit_length)));
+    if (c.edge && (c.joint == line || c.joint == line + 1) && c.force + c.layer > 0.0)
+      least = std::max(least, std::min(most, rounding / ((c.force + c.layer) * profile.unit_length)));
   return least;
 }
 
