@@ -89,8 +89,9 @@ bool overlaps_between(Entry& at, int link) {
 /// Is the state on the branch that leaves the event? With half the length it is nearer to it then, by half or more. Newton's method
 /// may end on a branch that has an arc of this length elsewhere.
 bool leaves_event(const Entry& entry, int link, double event) {
-  constexpr double nearer = 0.75;
+  constexpr double nearer = 0.75, together = 1e-6;  // meshes move events by less
   const double away = std::abs(entry.p(0) - event);
+  if (away <= together * std::max(1.0, std::abs(event))) return true;
   Entry half = entry;
   half.problem = std::static_pointer_cast<RodProblem>(entry.problem->clone());
   const double length = 0.5 * length_of(half, link);
