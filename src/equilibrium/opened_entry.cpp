@@ -86,17 +86,21 @@ bool overlaps_between(Entry& at, int link) {
   });
 }
 
-/// Is the state on the branch that leaves the event? With half the length it is nearer to it then, by half or more. Newton's method
-/// may end on a branch that has an arc of this length elsewhere.
+/// Is the state on the branch that leaves the event? Where its arc has no length the branch is at the event then. Newton's method may
+/// end on a branch that has an arc of this length elsewhere.
 bool leaves_event(const Entry& entry, int link, double event) {
-  constexpr double nearer = 0.75, together = 1e-6;  // meshes move events by less
+  constexpr double together = 1e-6;  // meshes move events by less
+  constexpr double part = 0.25, shortest = 0.125;
   const double away = std::abs(entry.p(0) - event);
   if (away <= together * std::max(1.0, std::abs(event))) return true;
-  Entry half = entry;
-  half.problem = std::static_pointer_cast<RodProblem>(entry.problem->clone());
-  const double length = 0.5 * length_of(half, link);
-  const bool solved = tried([&] { return solve_at_length(*half.problem, half.x, half.p, link, length); });
-  return !solved || std::abs(half.p(0) - event) <= nearer * away;
+  Entry at = entry;
+  at.problem = std::static_pointer_cast<RodProblem>(entry.problem->clone());
+  std::optional<Vanishing> begins;
+  tried([&] {
+    begins = where_length_vanishes(*at.problem, at.x, at.p, link, shortest * length_of(at, link));
+    return begins.has_value();
+  });
+  return !begins || std::abs(begins->p - event) <= std::max(part * away, 2.0 * begins->precision);
 }
 
 }  // namespace
