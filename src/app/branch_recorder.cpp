@@ -109,6 +109,7 @@ void BranchRecorder::add_eigenvalues(Solution& solution, const Point& point) {
   const auto begin = Clock::now();
   auto& problem = dynamic_cast<RodProblem&>(*point.problem);
   equilibrium::Stability stability;
+  bool told = !problem.dragged();
   kernel_ = 0;
   if (spectra_ || special(point) || problem.dragged()) {  // only a spectrum knows a dragged state's index
     try {
@@ -116,6 +117,7 @@ void BranchRecorder::add_eigenvalues(Solution& solution, const Point& point) {
       // even part.
       const int count = point.type == PointType::branch_point ? zero_modes_wanted(point) : 1;
       stability = stability::analyse(problem, point.x, point.p, count, special(point), solver_);
+      told = true;
       const double zero = zero_eigenvalue * problem.units().force;
       kernel_ = static_cast<int>(std::count_if(stability.eigenvalues.begin(), stability.eigenvalues.end(),
                                                [zero](double mu) { return std::abs(mu) < zero; }));
@@ -125,7 +127,10 @@ void BranchRecorder::add_eigenvalues(Solution& solution, const Point& point) {
     }
   }
   if (!problem.dragged()) stability.index = stability.inertia_index = problem.total_index(point.x, point.p);
-  solution.stability = stability;
+  // A dragged state without a spectrum: the index of the branch's last point stands, as where a contact carries nothing.
+  const bool follows = in_branch_ > 0 && last_.index;
+  if (!told && follows) stability.index = stability.inertia_index = *last_.index, stability.degenerate = true;
+  if (told || follows) solution.stability = stability;
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   solution.seconds_stability = seconds;
   stability_ += seconds;

@@ -205,11 +205,7 @@ int run_solve(const SolveRequest& request) {
   const scene::Scene scene = equilibrium::determinate(request.scene);  // the one solved
   const equilibrium::Equilibria found = [&] {
     const Heartbeat heartbeat(scene.name + ": searching the equilibrium", request.common.quiet);
-    equilibrium::Equilibria all = equilibrium::equilibria(request.scene);
-    if (all.answer.dragged) {
-      add_indices(all.states, scene);
-      equilibrium::answer_with_stable(all, scene);
-    }
+    equilibrium::Equilibria all = judged_equilibria(request.scene);
     add_stability(all.answer, scene);
     return all;
   }();

@@ -29,19 +29,20 @@ std::optional<std::string> setting_of_point(const output::Run& run, const std::s
 
 namespace {
 
-constexpr int unknown = -1;
-
 /// @param known  index of the point by the run it is of
 equilibrium::Stability spectrum_at(const scene::Scene& scene, const equilibrium::Restart& restart, int count,
-                                   bool modes, int known, stability::SpectrumSolver& solver) {
+                                   bool modes, std::optional<int> known, stability::SpectrumSolver& solver) {
   const auto problem = equilibrium::reopen(scene, restart, {equilibrium::load_key(scene)});
   continuation::Vector x = restart.state, p = problem->parameters();
   // At an event where an arc has no length its rotations have no weight and no sign: the spectrum is that of the state
   // next to it, where it has some.
   equilibrium::Stability stability;
-  stability.index = stability.inertia_index = known;
   const bool left = equilibrium::leave_event(*problem, x, p);
-  if (left) stability = stability::analyse(*problem, x, p, count, modes, solver);
+  if (!left) x = restart.state, p = problem->parameters();
+  if (left || !known)
+    stability = stability::analyse(*problem, x, p, count, modes, solver);
+  else
+    stability.index = stability.inertia_index = *known;
   stability.degenerate |= !left || x != restart.state;
   return stability;
 }
@@ -50,7 +51,7 @@ equilibrium::Stability spectrum_at(const scene::Scene& scene, const equilibrium:
 
 equilibrium::Stability spectrum_of(const scene::Scene& scene, const equilibrium::Restart& restart, int count,
                                    bool modes, stability::SpectrumSolver& solver) {
-  return spectrum_at(scene, restart, count, modes, unknown, solver);
+  return spectrum_at(scene, restart, count, modes, std::nullopt, solver);
 }
 
 void add_indices(std::span<equilibrium::StateSummary> states, const scene::Scene& scene) {
@@ -59,12 +60,21 @@ void add_indices(std::span<equilibrium::StateSummary> states, const scene::Scene
     if (state.index < 0) state.index = spectrum_of(scene, state.restart, 2, false, solver).index;
 }
 
+equilibrium::Equilibria judged_equilibria(const scene::Scene& asked) {
+  equilibrium::Equilibria all = equilibrium::equilibria(asked);
+  if (!all.answer.dragged) return all;
+  const scene::Scene scene = equilibrium::determinate(asked);  // the one solved
+  add_indices(all.states, scene);
+  equilibrium::answer_with_stable(all, scene);
+  return all;
+}
+
 equilibrium::Stability spectrum_of_point(const scene::Scene& scene, const output::Run& run,
                                          std::size_t position, int count, stability::SpectrumSolver& solver) {
   const equilibrium::Solution stored = run.points.get(position);
   const scene::Scene at = scene_of_point(scene, run, position);
   const output::PointStore::Key& key = run.points.keys().at(position);
-  const int known = run.row(output::point_name(key.branch, key.point, "")).index.value_or(unknown);
+  const std::optional<int> known = run.row(output::point_name(key.branch, key.point, "")).index;
   return spectrum_at(at, stored.restart, count, true, known, solver);
 }
 

@@ -24,6 +24,10 @@ equilibrium::Stability spectrum_of(const scene::Scene& scene, const equilibrium:
 /// Indices of dragged states, which are known from their spectra only. @throws as stability::analyse
 void add_indices(std::span<equilibrium::StateSummary> states, const scene::Scene& scene);
 
+/// All equilibria of a scene with their indices; of a dragged one the answer is a stable state if one was found.
+/// @throws as equilibrium::equilibria and stability::analyse
+equilibrium::Equilibria judged_equilibria(const scene::Scene& asked);
+
 /// The stored point's lowest eigenvalues and their modes. @throws as stability::analyse
 equilibrium::Stability spectrum_of_point(const scene::Scene& scene, const output::Run& run,
                                          std::size_t position, int count, stability::SpectrumSolver& solver);

@@ -5,8 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "windlass/equilibrium/record.hpp"
-#include "windlass/equilibrium/start.hpp"
+#include "app/stored_point.hpp"
 #include "windlass/output/branches_csv.hpp"
 #include "windlass/output/error.hpp"
 #include "windlass/output/run_folder.hpp"
@@ -32,17 +31,15 @@ std::string SweepCase::header() const {
 }
 
 std::string SweepCase::solve(const scene::Scene& scene) const {
-  const equilibrium::Solution s = equilibrium::solve(scene);
-  const auto problem =
-      equilibrium::reopen(equilibrium::determinate(scene), s.restart, {equilibrium::load_key(scene)});
-  const int index = problem->total_index(s.restart.state, problem->parameters());
+  const equilibrium::Equilibria all = judged_equilibria(scene);
+  const equilibrium::Solution& s = all.answer;
   std::string text;
   if (s.has_cylinder) text = format_number(s.T) + "," + format_number(s.phi) + ",";
   text += s.model;
   const std::array<double, 5> capstan{s.R_tot, s.phi_star, s.tilt, s.z_span, s.energy},
       strut{s.end_force, s.end_moment, s.shortening, s.z_span, s.energy};
   for (const double value : s.has_cylinder ? capstan : strut) text += "," + format_number(value);
-  return text + "," + std::to_string(index) + "," + format_number(s.error_estimate) + "," +
+  return text + "," + std::to_string(all.states.front().index) + "," + format_number(s.error_estimate) + "," +
          csv_cell(s.topology);
 }
 

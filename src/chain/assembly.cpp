@@ -232,16 +232,19 @@ void Chain::add_stretching(const VectorXd& x, const Loads& loads, int joint, Blo
   if (numbering_.location[link] >= 0) dense(row, numbering_.location[link]) -= by_length;
 }
 
-/// Derivatives of the pulls T ± τ on ends on sliders: dead loads are linear in the tension.
+/// Of what pulls on an end on a slider, the derivative with τ of T ± τ: dead loads are linear in the tension.
+SmallVector Chain::by_pull(const VectorXd& x, const Loads& loads, int end) const {
+  Loads more = loads;
+  more.tension += 1.0;
+  return (end == 0 ? -1.0 : 1.0) * (joints_[end]->dead_load(coordinates(x, end), more) -
+                                    joints_[end]->dead_load(coordinates(x, end), loads));
+}
+
 void Chain::add_pulled(const VectorXd& x, const Loads& loads, Block& dense) const {
   for (const int j : {0, joint_count() - 1}) {
-    Loads more = loads;
-    more.tension += 1.0;
-    const SmallVector by_pull =
-        joints_[j]->dead_load(coordinates(x, j), more) - joints_[j]->dead_load(coordinates(x, j), loads);
+    const SmallVector pulled = by_pull(x, loads, j);
     for (std::size_t k = 0; k < kept_[j].size(); ++k)
-      dense(numbering_.coordinate[j] + static_cast<Eigen::Index>(k), numbering_.slide) +=
-          (j == 0 ? -1.0 : 1.0) * by_pull(kept_[j][k]);
+      dense(numbering_.coordinate[j] + static_cast<Eigen::Index>(k), numbering_.slide) += pulled(kept_[j][k]);
   }
 }
 

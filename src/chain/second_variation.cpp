@@ -5,6 +5,9 @@
 namespace windlass::chain {
 
 using contact::Parity;
+using contact::Side;
+using contact::SmallMatrix;
+using contact::SmallVector;
 using Sparse = Eigen::SparseMatrix<double>;
 using Triplet = Eigen::Triplet<double>;
 
@@ -111,6 +114,47 @@ Sparse Chain::material_metric(const Numbering& numbering, const Placed& placed, 
   return Sparse(material.transpose() * mass.asDiagonal() * material);
 }
 
+/// What does work on the difference of the pulls T ± τ: by how much more one end comes along its pull than the other. The
+/// conjugate of τ's column: with another row in its place K v = λ M v has a λ that goes through infinity.
+VectorXd Chain::held_at_ends(const VectorXd& x, const Loads& loads) const {
+  VectorXd row = VectorXd::Zero(size_);
+  for (int i = 0; i < link_count(); ++i) {
+    if (links_[i].pull == 0) continue;
+    const Arc& arc = *links_[i].arc;
+    const SmallVector by_travel = force_by_travel(loads, i);
+    const Local l = local(Purpose::equilibrium, numbering_, x, loads, i);
+    VectorXd along = VectorXd::Zero(arc.interior_tangent() + arc.ends());
+    along.segment(arc.interior_tangent() + 2 * arc.tangent(), arc.forces()) = by_travel;
+    row += scatter(l.columns, l, dense_size_, i).transpose() *
+           VectorXd(sparse_hessian(Purpose::equilibrium, place(x, loads, i), i) * along);
+    for (const Side side : {Side::right, Side::left}) {
+      const int joint = side == Side::right ? i : i + 1;
+      const SmallMatrix dx = attachment(Purpose::equilibrium, x, loads, joint, side).dx;
+      row.segment(numbering_.coordinate[joint], dx.cols()) +=
+          (side == Side::right ? -1.0 : 1.0) * dx.transpose() * by_travel;
+    }
+  }
+  for (const int j : {0, joint_count() - 1}) {
+    const SmallVector pulled = by_pull(x, loads, j);
+    for (std::size_t k = 0; k < kept_[j].size(); ++k)
+      row(numbering_.coordinate[j] + static_cast<Eigen::Index>(k)) += pulled(kept_[j][k]);
+  }
+  return row;
+}
+
+/// Not the arclength of the outermost contacts, but what moves past them.
+VectorXd Chain::held_at_contacts(const VectorXd& x) const {
+  VectorXd row = VectorXd::Zero(size_);
+  for (int j = 0; j < joint_count() && slide_row() >= 0; ++j) {
+    const double share = slide_share(j);
+    if (share == 0.0) continue;
+    row(numbering_.coordinate[j]) += share;
+    if (numbering_.location[j] >= 0)
+      row(numbering_.location[j]) -= share * joints_[j]->slide(coordinates(x, j));
+  }
+  return row;
+}
+
 Chain::DraggedVariation Chain::dragged_variation(const VectorXd& x, const Loads& loads) const {
   // A line may as well end a little earlier or later: its edge moves nothing to first order, and stays.
   Numbering numbering = numbering_;
@@ -138,16 +182,10 @@ Chain::DraggedVariation Chain::dragged_variation(const VectorXd& x, const Loads&
     out.setFromTriplets(entries.begin(), entries.end());
     return out;
   };
-  // Held against sliding along itself: not the arclength of the outermost contacts now, but what moves past them.
   std::vector<Triplet> held;
-  for (int j = 0; j < joint_count() && slide_row() >= 0; ++j) {
-    const double share = slide_share(j);
-    if (share == 0.0) continue;
-    held.emplace_back(place[slide_row()], place[numbering.coordinate[j]], share);
-    if (numbering.location[j] >= 0)
-      held.emplace_back(place[slide_row()], place[numbering.location[j]],
-                        -share * joints_[j]->slide(coordinates(x, j)));
-  }
+  const VectorXd row = travel() == Travel::blocked ? held_at_ends(x, loads) : held_at_contacts(x);
+  for (Eigen::Index k = 0; k < size_ && slide_row() >= 0; ++k)
+    if (place[k] >= 0 && row(k) != 0.0) held.emplace_back(place[slide_row()], place[k], row(k));
   // The row of a place is a condition of contact, tangency, which holds in all motions: no inertia is in it.
   std::vector<bool> geometric(static_cast<std::size_t>(size_), false);
   for (int j = 0; j < joint_count(); ++j)

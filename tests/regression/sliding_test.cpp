@@ -218,13 +218,14 @@ nlohmann::json turns_on_plate(const std::vector<std::string>& settings) {
 
 BOOST_AUTO_TEST_CASE(thick_turns_lie_beside_each_other_on_the_plate) {
   // Flat, these coils would lie on themselves over more than a turn. 3π: a pull and R_tot of a state without lines; 4π: a line opens
-  // beside a strand that presses on it, on the way to this friction.
+  // beside a strand that presses on it, on the way to this friction. At T = 0.3 a pull from rest comes to rest at 0.33608 (mesh 0.14).
   const std::vector<std::tuple<const char*, const char*, const char*>> cases = {
       {"load.angle=3 pi", "rod.length=40", "load.tension=1"},
-      {"load.angle=4 pi", "rod.length=46", "load.tension=0.7"}};
+      {"load.angle=4 pi", "rod.length=46", "load.tension=0.7"},
+      {"load.angle=4 pi", "rod.length=46", "load.tension=0.3"}};
   for (const auto& [angle, length, tension] : cases) {
     const nlohmann::json state = turns_on_plate({angle, length, tension});
-    BOOST_TEST_CONTEXT(angle) {
+    BOOST_TEST_CONTEXT(angle << ", " << tension) {
       const double drag = state["F0"].get<double>();
       BOOST_TEST(std::abs(drag / (0.32 * state["R_tot"].get<double>()) - 1.0) < 1e-10);
       BOOST_TEST(std::abs(state["plate"]["force"].get<double>() / drag - 1.0) < 1e-10);

@@ -71,6 +71,21 @@ BOOST_AUTO_TEST_CASE(the_table_holds_every_case_in_order) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(states_that_a_cylinder_drags_have_their_index) {
+  // At 4 pi, T = 0.4, the flat coil, which is found first, is unstable: the row is of the stable state, as the answer of `solve`.
+  const TemporaryFolder folder;
+  const Words words{"sweep",  scene("capstan-2pi-plate.toml"),
+                    "--over", "load.angle=2 pi,4 pi",
+                    "--over", "load.tension=0.4,2",
+                    "--out",  "out",
+                    "--quiet"};
+  const Outcome outcome = run_program(words, folder.path());
+  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  const Table table = read_csv(folder.path() / "out" / "sweep.csv");
+  BOOST_REQUIRE(table.rows.size() == 4u);
+  for (const auto& row : table.rows) BOOST_TEST(row.at("index") == "0");
+}
+
 BOOST_AUTO_TEST_CASE(two_ranks_give_the_same_bytes_as_one) {
   if (!have_mpirun()) {
     BOOST_TEST_MESSAGE("mpirun is not installed: skipped");

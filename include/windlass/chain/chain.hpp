@@ -346,7 +346,11 @@ class Chain {
   void add_joint_terms(Purpose purpose, const Numbering& numbering, const VectorXd& x, const Loads& loads,
                        int link, const bvp::EndsVector& gradient, Block& dense) const;
   void add_locations(const VectorXd& x, const Loads& loads, Block& dense) const;
+  contact::SmallVector by_pull(const VectorXd& x, const Loads& loads, int end) const;
   void add_pulled(const VectorXd& x, const Loads& loads, Block& dense) const;
+  /// Rows that hold a dragged rod against sliding along itself in variations.
+  VectorXd held_at_ends(const VectorXd& x, const Loads& loads) const;
+  VectorXd held_at_contacts(const VectorXd& x) const;
   void add_gauges(const Numbering& numbering, Purpose purpose, const VectorXd& x, Block& dense) const;
   /// An unknown of a dense block that acts on an arc's interior.
   struct Coupled {
