@@ -298,10 +298,8 @@ bool Walker::enter(const Transition& transition, int direction, const std::strin
       continue;
     }
     try {
-      for (const int sign : {direction, -direction}) {
-        Tangent tangent = first_tangent(*problem, it.x, it.p, options_, sign);
-        // The same curve, described otherwise: the parameter goes the same way.
-        if (transition.silent ? sign != direction : !valid_direction(problem, it.x, it.p, tangent, passed)) {
+      for (const auto& [sign, tangent, valid] : ways_along(transition, it, direction, passed)) {
+        if (valid == 0.0) {
           failure = "the new problem is not valid in either direction";
           continue;
         }
@@ -348,8 +346,24 @@ void Walker::forget_rounded_signs(bool negative) {
   });
 }
 
-bool Walker::valid_direction(const std::shared_ptr<Problem>& problem, const Vector& x, const Vector& p,
-                             const Tangent& tangent, const std::string& passed) {
+// Within roundoff of the event, or of where touches laid anew have it, either way may hold: the one that holds longer comes first.
+std::array<Walker::Way, 2> Walker::ways_along(const Transition& transition, const Iterate& it, int direction,
+                                              const std::string& passed) {
+  const auto way = [&](int sign) {
+    Way out{sign, first_tangent(*transition.problem, it.x, it.p, options_, sign), 0.0};
+    if (transition.silent)  // the same curve, described otherwise: the parameter goes the same way
+      out.valid = sign == direction ? 1.0 : 0.0;
+    else
+      out.valid = valid_over(transition.problem, it.x, it.p, out.tangent, passed);
+    return out;
+  };
+  std::array<Way, 2> out{way(direction), way(-direction)};
+  if (out[1].valid > out[0].valid) std::swap(out[0], out[1]);
+  return out;
+}
+
+double Walker::valid_over(const std::shared_ptr<Problem>& problem, const Vector& x, const Vector& p,
+                          const Tangent& tangent, const std::string& passed) {
   // Of mirror images that vanish together one is passed now, the others, negative from here on, in the next
   // steps. They have the value of the one passed; others are merely small.
   const EventFunction* now = find(state_.events, passed);
@@ -373,9 +387,9 @@ bool Walker::valid_direction(const std::shared_ptr<Problem>& problem, const Vect
           return !before || before->value >= -1e3 * options_.event_zero;
         });
     const bool valid = negative <= simultaneous;
-    if (valid) return true;
+    if (valid) return part;
   }
-  return false;
+  return 0.0;
 }
 
 }  // namespace continuation

@@ -160,8 +160,7 @@ std::optional<double> value_of(const std::vector<ContactEvent>& events, const st
 std::vector<int> vanished_beside_strands(const std::vector<ContactEvent>& events, const Topology& topology) {
   std::vector<int> links;
   for (const ContactEvent& event : events)
-    if (event.kind == Kind::length && !event.redrawn && event.value <= 0.0 &&
-        topology.beside_strand(event.place))
+    if (event.kind == Kind::length && event.value <= 0.0 && topology.beside_strand(event.place))
       links.push_back(event.place);
   return links;
 }

@@ -87,12 +87,13 @@ bool overlaps_between(Entry& at, int link) {
 }
 
 /// Is the state on the branch that leaves the event? Where its arc has no length the branch is at the event then. Newton's method may
-/// end on a branch that has an arc of this length elsewhere.
+/// end on a branch that has an arc of this length elsewhere. (Beside strands arcs are entered so short that rounding is in the way.)
 bool leaves_event(const Entry& entry, int link, double event) {
-  constexpr double together = 1e-6;  // meshes move events by less
-  constexpr double part = 0.25, shortest = 0.125;
+  constexpr double together = 1e-6;               // meshes move events by less
+  constexpr double part = 0.5, shortest = 0.125;  // what gave way had some length left at the event
   const double away = std::abs(entry.p(0) - event);
-  if (away <= together * std::max(1.0, std::abs(event))) return true;
+  if (entry.problem->topology().beside_strand(link) || away <= together * std::max(1.0, std::abs(event)))
+    return true;
   Entry at = entry;
   at.problem = std::static_pointer_cast<RodProblem>(entry.problem->clone());
   std::optional<Vanishing> begins;

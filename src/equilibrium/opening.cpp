@@ -221,10 +221,13 @@ double entered_beside_strand(const RodProblem& problem) {
 }
 
 bool leave_event(RodProblem& problem, Vector& x, Vector& p) {
-  const std::vector<int> links =
+  const double entered = entered_beside_strand(problem);
+  std::vector<int> links =
       vanished_beside_strands(contact_events(problem.profile(x, p), problem.topology()), problem.topology());
-  return links.empty() ||
-         tried([&] { return solve_at_length(problem, x, p, links.front(), entered_beside_strand(problem)); });
+  // What is only to be redrawn has a length.
+  std::erase_if(links,
+                [&](int link) { return problem.chain().length(x, problem.loads(p), link) >= entered; });
+  return links.empty() || tried([&] { return solve_at_length(problem, x, p, links.front(), entered); });
 }
 
 bool solve_in_place(RodProblem& problem, Vector& x, const Vector& p) {

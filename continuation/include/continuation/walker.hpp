@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -109,8 +110,16 @@ class Walker {
   void forget_rounded_signs(bool negative);
   bool leads_back(Problem& next, const Iterate& it, const Tangent& way) const;
   bool enter(const Transition& transition, int direction, const std::string& passed, std::string& failure);
-  bool valid_direction(const std::shared_ptr<Problem>& problem, const Vector& x, const Vector& p,
-                       const Tangent& tangent, const std::string& passed);
+  /// A way along the branch of another problem, and the part of a step over which it holds; 0: it does not.
+  struct Way {
+    int sign;
+    Tangent tangent;
+    double valid;
+  };
+  std::array<Way, 2> ways_along(const Transition& transition, const Iterate& it, int direction,
+                                const std::string& passed);
+  double valid_over(const std::shared_ptr<Problem>& problem, const Vector& x, const Vector& p,
+                    const Tangent& tangent, const std::string& passed);
 
   double& parameter(Vector& p) const { return p[options_.parameter]; }
   double parameter(const Vector& p) const { return p[options_.parameter]; }

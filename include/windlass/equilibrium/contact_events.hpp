@@ -117,7 +117,7 @@ std::vector<ContactEvent> contact_events(const chain::Profile& profile, const ch
 /// Of the event with that name; nullopt: there is none.
 std::optional<double> value_of(const std::vector<ContactEvent>& events, const std::string& name);
 
-/// Links beside a touch of strands that have no length left, as in the state of an event; one that is to be redrawn has some.
+/// Links beside a touch of strands that have no length left, as in the state of an event, or less than what they stand for.
 std::vector<int> vanished_beside_strands(const std::vector<ContactEvent>& events,
                                          const chain::Topology& topology);
 
