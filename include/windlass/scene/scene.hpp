@@ -188,9 +188,7 @@ struct Scene {
   }
   bool obstacles_keep_half_turn() const;
   /// Is there no torsion anywhere? Then the centre line alone is the rod, as the thick discrete rod has it.
-  bool free_of_torsion() const {
-    return ends_turn_freely() && rod.isotropic_straight();
-  }
+  bool free_of_torsion() const { return ends_turn_freely() && rod.isotropic_straight(); }
   bool has_obstacles() const { return has_cylinder || !walls.empty(); }
   double dragging_friction() const { return slides() ? friction.value_or(0.0) : 0.0; }  ///< mu of what slips
   /// Do both ends turn freely? Then nothing balances a moment about the rod's tangent.
