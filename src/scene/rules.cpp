@@ -124,8 +124,7 @@ void check_knot(const Document& document, const Scene& scene) {
     forbid(document, document.find("load.angle") ? "load.angle" : key,
            "must be \"4 pi\" with knot.kind = \"clove_hitch\": its ends are pulled along +-e_x");
   for (const char* end : {"ends.kind", "ends.left", "ends.right"})
-    if (!scene.ends_turn_freely())
-      forbid(document, end, "must be \"moment_free\" for a knot");
+    if (!scene.ends_turn_freely()) forbid(document, end, "must be \"moment_free\" for a knot");
   if (!scene.rod.isotropic_straight())
     forbid(document, key, "needs an isotropic, naturally straight rod: its start is relaxed without torsion");
   if (scene.continuation && scene.continuation->parameter == "load.angle" &&
@@ -140,9 +139,10 @@ void check_friction_couple(const Scene& scene, const Refuse& refuse) {
   if (!(scene.friction_arm() > 0.0) && !(scene.friction_has_couple() && starts_in(scene, "rod.radius")))
     return;
   if (scene.ends_turn_freely())
-    refuse(key,
-           "must not be true where both ends turn freely: nothing balances the moment of the friction about the "
-           "rod's tangent; ends.kind = \"clamped\" or \"spin_held\" holds it");
+    refuse(
+        key,
+        "must not be true where both ends turn freely: nothing balances the moment of the friction about the "
+        "rod's tangent; ends.kind = \"clamped\" or \"spin_held\" holds it");
 }
 
 /// Cylinders that slide.
