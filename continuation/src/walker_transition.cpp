@@ -346,6 +346,13 @@ void Walker::forget_rounded_signs(bool negative) {
   });
 }
 
+namespace {
+
+// A short step may still be within roundoff of the event, a long one beyond the next.
+constexpr std::array parts_of_step{0.1, 0.01, 1e-3, 1e-4, 1e-5};
+
+}  // namespace
+
 // Within roundoff of the event, or of where touches laid anew have it, either way may hold: the one that holds longer comes first.
 std::array<Walker::Way, 2> Walker::ways_along(const Transition& transition, const Iterate& it, int direction,
                                               const std::string& passed) {
@@ -357,7 +364,9 @@ std::array<Walker::Way, 2> Walker::ways_along(const Transition& transition, cons
       out.valid = valid_over(transition.problem, it.x, it.p, out.tangent, passed);
     return out;
   };
-  std::array<Way, 2> out{way(direction), way(-direction)};
+  std::array<Way, 2> out{way(direction), Way{-direction, {}, 0.0}};
+  if (out[0].valid >= parts_of_step.front()) return out;  // none can hold longer
+  out[1] = way(-direction);
   if (out[1].valid > out[0].valid) std::swap(out[0], out[1]);
   return out;
 }
@@ -373,8 +382,7 @@ double Walker::valid_over(const std::shared_ptr<Problem>& problem, const Vector&
         return event.name != passed && !event.passes &&
                std::abs(event.value - left) <= 10.0 * options_.event_zero + 0.1 * std::abs(left);
       });
-  // A short step may still be within roundoff of the event, a long one beyond the next.
-  for (const double part : {0.1, 0.01, 1e-3, 1e-4, 1e-5}) {
+  for (const double part : parts_of_step) {
     Segment segment(problem, options_, x, p, tangent);
     Sample* sample = segment.at(part * step_length_.current(), false);
     if (!sample) continue;
