@@ -129,6 +129,16 @@ std::optional<Successor> flat_line_closes(const Meeting& at) {
   return next.successor();
 }
 
+/// With the arc between two joints of several lengths. @param way  from the one into the plate, 1, or out of it, -1
+std::vector<Successor> of_lengths(Strip next, const Meeting& at, int joint, int from, double way) {
+  std::vector<Successor> out;
+  for (const double length : {0.05, 1e-2, 2e-3}) {
+    next.s[joint] = at.beyond(from, way * length);
+    out.push_back(next.successor());
+  }
+  return out;
+}
+
 /// The line of the cylinder reaches the plate and lies on both from there on, or the other way round.
 std::vector<Successor> line_reaches_or_leaves(const Meeting& at) {
   const Strip& strip = at.strip;
@@ -137,14 +147,6 @@ std::vector<Successor> line_reaches_or_leaves(const Meeting& at) {
     if (const auto closed = flat_line_closes(at)) return {*closed};
   Strip next = strip;
   next.parts[link].fresh = true;
-  const auto of_lengths = [&] {
-    std::vector<Successor> out;
-    for (const double length : {0.05, 1e-2, 2e-3}) {
-      next.s[at.outer()] = at.beyond(at.inner(), length);
-      out.push_back(next.successor());
-    }
-    return out;
-  };
   const int cylinder = strip.on[at.line()].obstacle;
   if (strip.parts[link].kind == Stretch::gap && at.on_plate(at.outer())) {
     const int plate = strip.on[at.outer()].obstacle;
@@ -152,7 +154,7 @@ std::vector<Successor> line_reaches_or_leaves(const Meeting& at) {
     if (at.line_on_plate()) next.parts[at.tail()].kind = Stretch::gap;
     next.on[link] = next.on[link + 1] = chain::Seat{cylinder};
     next.on[link].flat = plate;
-    return of_lengths();
+    return of_lengths(next, at, at.outer(), at.inner(), 1.0);
   }
   if (strip.is_line(link) && strip.on[link].flat >= 0 && strip.on[at.line()].flat < 0) {
     const chain::Seat plate{strip.on[link].flat};
@@ -161,7 +163,7 @@ std::vector<Successor> line_reaches_or_leaves(const Meeting& at) {
     if (between_touches) next.parts[at.tail()].kind = Stretch::line;
     next.on[at.inner()] = chain::Seat{cylinder};
     next.on[at.outer()] = plate;
-    return of_lengths();
+    return of_lengths(next, at, at.outer(), at.inner(), 1.0);
   }
   return {};
 }
@@ -181,12 +183,8 @@ std::vector<Successor> ends_change_places(const Meeting& at) {
   Strip next = strip;
   next.parts[link] = {line ? Stretch::gap : Stretch::line, next.parts[link].source, true};
   next.on[at.inner()] = line ? plate : cylinder;
-  std::vector<Successor> out;
-  for (const double length : {0.05, 1e-2, 2e-3}) {
-    next.s[at.inner()] = at.beyond(at.outer(), -length);
-    out.push_back(next.successor());
-    out.back().beside = true;
-  }
+  std::vector<Successor> out = of_lengths(next, at, at.inner(), at.outer(), -1.0);
+  for (Successor& one : out) one.beside = true;
   return out;
 }
 
