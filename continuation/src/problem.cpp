@@ -52,6 +52,10 @@ std::vector<Vector> Problem::kernel_directions(const Vector&, const Vector&, con
 
 std::vector<EventFunction> Problem::events(const Vector&, const Vector&) { return {}; }
 
+std::optional<Transition> Problem::resettled(const Vector&, const Vector&, const Vector&, const Vector&) {
+  return std::nullopt;
+}
+
 std::optional<Transition> Problem::transition(std::size_t, const Vector&, const Vector&) {
   return std::nullopt;
 }

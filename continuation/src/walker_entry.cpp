@@ -83,15 +83,7 @@ bool Walker::enter(const Transition& transition, int direction, const std::strin
           continue;
         }
         segment.add_events(*sample);
-        // Signs are read off the first point beyond: here the function that changed, and its mirror image, are zero up to
-        // roundoff. Those that are not, or may have either sign, are known from here on.
-        state_.signs.clear();
-        settle(segment, *sample);
-        forget_rounded_signs(false);
-        state_.mesh_changed = true;
-        state_.previous_tangent = state_.tangent;
-        // A short first step separates the zero just passed from the next event.
-        step_length_.reset(0.1 * step_length_.usual());
+        enter_at(segment, *sample);
         return true;
       }
     } catch (const std::domain_error& error) {
@@ -101,6 +93,19 @@ bool Walker::enter(const Transition& transition, int direction, const std::strin
     }
   }
   return false;
+}
+
+// Goes on from a state beyond an event.
+void Walker::enter_at(Segment& segment, Sample& sample) {
+  // Signs are read off the first point beyond: here the function that changed, and its mirror image, are zero up to roundoff.
+  // Those that are not, or may have either sign, are known from here on.
+  state_.signs.clear();
+  settle(segment, sample);
+  forget_rounded_signs(false);
+  state_.mesh_changed = true;
+  state_.previous_tangent = state_.tangent;
+  // A short first step separates the zero just passed from the next event.
+  step_length_.reset(0.1 * step_length_.usual());
 }
 
 // A function that is zero up to rounding at the point of an event has no sign there, unless it may have either.

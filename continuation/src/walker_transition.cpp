@@ -155,8 +155,14 @@ void Walker::pass(Point event, std::size_t which, const std::string& name, int d
     queue_.push_back(std::move(event));
     pending_end_ = End{kind, reason};
   };
-  if (state_.events_in_place > 5)
-    return finish(End::Kind::lost, "event " + name + ": events repeat without progress");
+  const auto leap_or = [&](const std::string& reason) {  // the branch is lost for this reason
+    if (!leap(event)) return finish(End::Kind::lost, "event " + name + ": " + reason);
+    say_what_follows(event);
+    const double before = event.p[options_.parameter], precision = event.precision;
+    if (event.before != event.after) queue_.push_back(std::move(event));
+    stop_before_entry(met, before, precision);
+  };
+  if (state_.events_in_place > 5) return leap_or("events repeat without progress");
   std::optional<Transition> transition;
   std::string failure;
   try {
@@ -166,7 +172,7 @@ void Walker::pass(Point event, std::size_t which, const std::string& name, int d
   } catch (const std::runtime_error& error) {
     failure = std::string(": ") + error.what();
   }
-  if (!transition) return finish(End::Kind::lost, "event " + name + ": no continuation is known" + failure);
+  if (!transition) return leap_or("no continuation is known" + failure);
   if (const EventFunction* function = find(state_.events, name); function && function->passes)
     return note(std::move(event), *function, *transition);
   event.before = transition->before;
@@ -175,8 +181,7 @@ void Walker::pass(Point event, std::size_t which, const std::string& name, int d
     event.precision = std::max(event.precision, transition->precision);
     return finish(End::Kind::event, "event " + name + " ends the branch");
   }
-  if (!enter(*transition, direction, name, failure))
-    return finish(End::Kind::lost, "event " + name + ": " + failure);
+  if (!enter(*transition, direction, name, failure)) return leap_or(failure);
   if (transition->precision >= 0.0) {
     event.problem = transition->problem->clone();
     event.x = transition->state;

@@ -84,6 +84,11 @@ class AlgebraicProblem : public Problem {
     return transition_of ? transition_of(which, x, p) : std::nullopt;
   }
 
+  std::optional<Transition> resettled(const Vector&, const Vector&, const Vector& x,
+                                      const Vector& ahead) override {
+    return resettled_of ? resettled_of(x, ahead) : std::nullopt;
+  }
+
   std::optional<Vector> adapt(const Vector& x, const Vector& p) override {
     return adapt_of ? adapt_of(*this, x, p) : std::nullopt;
   }
@@ -102,6 +107,7 @@ class AlgebraicProblem : public Problem {
 
   std::function<std::vector<EventFunction>(const Vector&, const Vector&)> events_of;
   std::function<std::optional<Transition>(std::size_t, const Vector&, const Vector&)> transition_of;
+  std::function<std::optional<Transition>(const Vector&, const Vector&)> resettled_of;
   std::function<std::optional<Vector>(AlgebraicProblem&, const Vector&, const Vector&)> adapt_of;
   std::function<std::vector<Vector>(const Matrix&)> directions_of;
   std::function<Vector(const Vector&, const Vector&)> fingerprint_of;

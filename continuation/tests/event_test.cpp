@@ -67,6 +67,36 @@ BOOST_AUTO_TEST_CASE(branch_goes_through_events_with_a_change_of_size) {
   BOOST_TEST(of_type(points, PointType::branch_point).empty());
 }
 
+// What follows the event is not known, what holds a little further on is: the walk goes on there, and says how far that is.
+BOOST_AUTO_TEST_CASE(an_event_that_cannot_be_passed_is_leapt_over) {
+  const auto spring = free_spring();
+  int asked = 0;
+  spring->transition_of = [](std::size_t, const Vector&, const Vector&) -> std::optional<Transition> {
+    return std::nullopt;
+  };
+  // Nearer than 0.01 to the event nothing is found.
+  const double at = std::asin(1.0 / 1.5);
+  spring->resettled_of = [&](const Vector& x, const Vector& p) -> std::optional<Transition> {
+    ++asked;
+    if (p[0] < at + 0.01) return std::nullopt;
+    BOOST_TEST(x[0] > 1.0);  // a guess beyond the event
+    return Transition{touching(), vector({1.0, 1.5 * std::sin(p[0]) - 1.0}), "free", "touch", p};
+  };
+  Options options;
+  options.target = 1.5;
+  Walker walker(spring, vector({0.0}), vector({0.0}), options);
+  const auto points = walk(walker);
+  const auto events = of_type(points, PointType::event);
+  BOOST_REQUIRE_EQUAL(events.size(), 1u);
+  BOOST_TEST(asked > 1);
+  BOOST_TEST(std::abs(events[0].p[0] - at) < 2e-10);
+  BOOST_TEST(events[0].precision == events[0].next_p[0] - events[0].p[0]);
+  BOOST_TEST(events[0].precision >= 0.01 - 2e-10);
+  BOOST_TEST(events[0].after == "touch");
+  BOOST_TEST((walker.end().kind == End::Kind::target));
+  BOOST_TEST(std::abs(points.back().x[1] - (1.5 * std::sin(1.5) - 1.0)) < 1e-10);
+}
+
 // p = 1 − x² comes back behind its turn as the mirror image of what is before it: |x| is alike at both ends of the step.
 BOOST_AUTO_TEST_CASE(an_event_between_mirror_images_is_not_jumped_over) {
   auto problem = scalar([](double x, const Vector& p) { return p[0] - 1.0 + x * x; });

@@ -325,6 +325,18 @@ Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod
   return out;
 }
 
+bool in_order(const Profile& profile) {
+  return std::all_of(profile.pieces.begin(), profile.pieces.end(),
+                     [](const Piece& piece) { return piece.weld || piece.length() >= 0.0; });
+}
+
+double farthest(const Profile& one, const Profile& other) {
+  double most = 0.0;
+  for (const Piece& piece : one.pieces)
+    most = std::max(most, (piece.r.col(0) - other.at(piece.s(0)).r).norm());
+  return most;
+}
+
 double total_contact_force(const Chain& chain, const Topology& topology, const RodKind& rod,
                            const VectorXd& x, const Loads& loads) {
   const std::vector<Stretch>& kinds = topology.stretches;

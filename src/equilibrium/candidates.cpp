@@ -29,6 +29,8 @@ std::vector<Successor> after_vanished_length(const ContactEvent& event, const Pr
   }
   if (const auto opened = opened_press(profile, topology, event.place); opened && event.redrawn)
     return {closed_under_press(*opened, strip)};
+  if (event.redrawn && part_of_opened(profile, chain::Strands(topology), event.place))
+    if (const auto closed = gap_closes(event.place, profile, topology, strip)) return {*closed};
   if (auto flat = flat_line_begins_or_ends(event.place, profile, strip); !flat.empty()) return flat;
   if (const auto fewer = line_with_fewer_touches(profile, topology, event.place, strip)) return {*fewer};
   if (const auto anew = laid_anew_at(profile, chain::Strands(topology), event.place); anew && event.redrawn)

@@ -78,8 +78,8 @@ void add_dip(const Profile& profile, const chain::Strands& strands, const Contac
   if (const auto dip = meets ? std::nullopt : dip_beside_touch(profile, strands, c)) {
     events.back().passes = true;
     events.back().presses = event.presses = dip->presses;
-    event.value = 1.0 - dip->nearer / carried_between_strands;
-    event.from = c.s - 0.5 * dip->length, event.to = c.s + 0.5 * dip->length;
+    event.value = 1.0 - dip->part;
+    event.from = dip->from, event.to = dip->to;
   }
   events.push_back(event);
 }

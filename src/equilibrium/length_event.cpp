@@ -83,6 +83,11 @@ ContactEvent length_event(const Profile& profile, const Topology& topology, cons
   if (const int line = line_of_several(strands, i); line >= 0)
     return spare_touches(profile, strands, i, line);
   if (const auto between = laid_between(profile, strands, i)) return *between;
+  if (const auto opened = part_of_opened(profile, strands, i)) {
+    ContactEvent event{Kind::length, i, *opened - 1.0, profile.pieces[i].s(0)};
+    event.redrawn = true;
+    return event;
+  }
   const bool begins_at_mid = topology.half && i == 0 && !topology.mid_touch;
   const Piece& piece = profile.pieces[i];
   const bool gap = piece.stretch == Stretch::gap;

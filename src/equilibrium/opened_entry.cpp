@@ -106,8 +106,9 @@ bool leaves_event(const Entry& entry, int link, double event) {
 
 }  // namespace
 
-std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, int depth, bool as_long,
+std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, Together& left, bool as_long,
                                   double p) {
+  if (left.tries-- <= 0) return std::nullopt;
   if (!settle_shape(*entry.problem, entry.x, entry.p, opened)) return std::nullopt;
   // What only redraws a state leaves all else where it is at the same load; at another, gaps that are open already move far.
   Entry here = entry;
@@ -139,7 +140,7 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, i
   }
   const auto worst = std::min_element(events.begin(), events.end(),
                                       [](const auto& a, const auto& b) { return a.value < b.value; });
-  if (depth == 0) return std::nullopt;
+  if (left.depth == 0) return std::nullopt;
   const std::vector<double> s = entry.problem->joint_places(entry.x, entry.p, shape);
   for (const Successor& next : successors(*worst, shape, topology, s)) {
     std::vector<int> all;
@@ -150,8 +151,10 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, i
     all.insert(all.end(), next.opened.begin(), next.opened.end());
     if (all.empty() || next.nothing_left || next.at_rim || next.at_end) continue;
     if (!entry.problem->admits(next.topology)) continue;
-    if (auto found = open_in_turn(draft(*entry.problem, next, shape, entry.p), all, depth - 1, as_long, p))
-      return found;
+    --left.depth;
+    auto found = open_in_turn(draft(*entry.problem, next, shape, entry.p), all, left, as_long, p);
+    ++left.depth;
+    if (found || left.tries <= 0) return found;
   }
   return std::nullopt;
 }

@@ -6,6 +6,7 @@
 #include "line_touches.hpp"
 #include "strand_line_events.hpp"
 #include "windlass/equilibrium/contact_events.hpp"
+#include "windlass/equilibrium/opening.hpp"
 #include "windlass/equilibrium/rod_problem.hpp"
 #include "windlass/rod/quaternion.hpp"
 
@@ -50,6 +51,24 @@ double slope_at_touches(const chain::Profile& shape, const chain::Strands& stran
   return most / allowed;
 }
 
+/// Is it the same state? Touches move what they stand for by less than this.
+bool same(const chain::Profile& shape, const Entry& laid) {
+  constexpr double most = 1e-5;
+  const chain::Profile there = laid.problem->profile(laid.x, laid.p);
+  return chain::in_order(there) && chain::farthest(there, shape) < most * shape.unit_length;
+}
+
+/// Touches laid anew may show where a line has opened, or strands are too near: with what follows from that, as far as it leaves the
+/// state what it is. nullopt: all holds, or nothing is found.
+std::optional<Entry> with_what_they_show(const Entry& laid) {
+  constexpr int most = 12;
+  if (holds(laid)) return std::nullopt;
+  Entry out = laid;
+  int iterations = 0;
+  if (!tried([&] { return mend(out, most, true, iterations); })) return std::nullopt;
+  return out;
+}
+
 }  // namespace
 
 std::optional<Vector> RodProblem::laid_where_needed(const Vector& x, const Vector& p) {
@@ -80,12 +99,15 @@ std::optional<Vector> RodProblem::laid_where_needed(const Vector& x, const Vecto
     if (nearer < many && !too_much() && next.s.size() >= strip.s.size()) break;
     Entry laid = draft(*this, next, shape, p);
     if (laid.problem->polish(laid.x, p) < 0) break;
-    const double now = left_in(laid.problem->profile(laid.x, p), laid.problem->topology());
+    const chain::Profile there = laid.problem->profile(laid.x, p);
+    if (!same(shape, laid)) break;
+    const double now = left_in(there, laid.problem->topology());
     if (now > left && (best || well_spaced)) break;  // it is not the spacing's
     best = std::move(laid), left = now;
   }
   if (too_much()) drift_floor_ = std::max(drift_floor_, left);
   if (!best) return std::nullopt;
+  if (const auto mended = with_what_they_show(*best); mended && same(shape, *mended)) best = *mended;
   topology_ = best->problem->topology();
   meshes_ = best->problem->meshes();
   rebuild();

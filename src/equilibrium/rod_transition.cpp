@@ -229,7 +229,7 @@ std::string new_touch_force(const Topology& topology) {
 /// @param becomes_touch  a line on a plane has no length left
 std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const Successor& next,
                            bool becomes_touch, continuation::Transition& transition) {
-  constexpr int most_together = 5;
+  Together together;
   const double unit = guess.problem->rod().unit_length;
   Entry exact = guess;
   // What vanishes may have another arc open in its place, whose length then says where.
@@ -260,7 +260,7 @@ std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const 
   }
   if (!next.opened.empty()) {
     tried([&] {
-      entered = open_in_turn(guess, next.opened, most_together, event.redrawn, guess.p(0));
+      entered = open_in_turn(guess, next.opened, together, event.redrawn, guess.p(0));
       return true;
     });
     Entry near = guess;
@@ -320,6 +320,25 @@ std::optional<continuation::Transition> RodProblem::after_event_on_other_touches
     return after.transition;
   }
   return std::nullopt;
+}
+
+std::optional<continuation::Transition> RodProblem::resettled(const Vector& last, const Vector& last_p,
+                                                              const Vector& x, const Vector& ahead) {
+  constexpr int most = 40;
+  constexpr double rounding = 1e-7;
+  Entry at{std::static_pointer_cast<RodProblem>(clone()), x, ahead};
+  int iterations = 0;
+  const chain::Profile here = profile(last, last_p), expected = profile(x, ahead);
+  if (!tried([&] { return at.problem->polish(at.x, ahead, 18) >= 0; })) at.x = x;
+  if (!tried([&] { return mend(at, most, false, iterations) && (at.problem->settle(at.x, ahead), true); }))
+    return std::nullopt;
+  const chain::Profile found = at.problem->profile(at.x, ahead);
+  const double reach = chain::farthest(expected, here) + rounding * here.unit_length;
+  if (!chain::in_order(found) || chain::farthest(found, expected) > reach) return std::nullopt;
+  continuation::Transition out;
+  out.problem = at.problem, out.state = at.x, out.p = ahead;
+  out.before = topology_.text(), out.after = at.problem->topology().text();
+  return out;
 }
 
 RodProblem::After RodProblem::after_event(const ContactEvent& event, const chain::Profile& shape,

@@ -85,6 +85,7 @@ ContactEvent spare_touches(const Profile& profile, const chain::Strands& strands
   ContactEvent event{ContactEvent::Kind::length, i, 1.0, profile.pieces[i].s(0)};
   event.redrawn = true;
   const chain::StrandLine& all = strands.lines()[line];
+  if (!all.on_obstacles) return event;  // see RodProblem::laid_where_needed
   if (i == all.first.front() || i == std::min(all.second.front(), all.second.back()))
     event.value =
         nearer_between(profile, strands, line) / (spare_between_strands * carried_between_strands) - 1.0;
@@ -192,6 +193,65 @@ Suction suction_about(const Profile& profile, const chain::Strands& strands, int
   return out;
 }
 
+namespace {
+
+/// How far apart touches that pull may open strands, so far from a line's end [ρ].
+double opened_so_far(const Profile& profile, double from_end) {
+  const double part = std::clamp((from_end / profile.unit_length - beside_end) / beside_end, 0.0, 1.0);
+  return opened_at_end + part * (opened_between_strands - opened_at_end);
+}
+
+/// The end of a line on a strand that is not this joint.
+int other_end(const chain::Strands& strands, int end) {
+  const chain::StrandLine& line = strands.lines()[strands.line_of(end)];
+  for (const auto* strand : {&line.first, &line.second}) {
+    if (strand->front() == end) return strand->back();
+    if (strand->back() == end) return strand->front();
+  }
+  return end;
+}
+
+/// From the end of a line to its next touch.
+double to_next(const Profile& profile, const chain::Strands& strands, int end) {
+  const chain::StrandLine& line = strands.lines()[strands.line_of(end)];
+  for (const auto* strand : {&line.first, &line.second}) {
+    const std::size_t last = strand->size() - 1;
+    if (strand->front() == end || strand->back() == end)
+      return std::abs(profile.pieces[end].s(0) -
+                      profile.pieces[(*strand)[strand->front() == end ? 1 : last - 1]].s(0));
+  }
+  return 0.0;
+}
+
+}  // namespace
+
+std::optional<double> part_of_opened(const Profile& profile, const chain::Strands& strands, int link) {
+  constexpr double closes = 0.1, as_a_row = 0.35, spacings = 3.0;
+  const auto is_end = [&](int joint) {
+    const int line = strands.line_of(joint);
+    return line >= 0 && !strands.inside_line(joint) && !strands.lines()[line].on_obstacles &&
+           !strands.lines()[line].own_image();
+  };
+  for (const chain::Strands::Facing& f : strands.facing(link)) {
+    if (f.line >= 0 || f.begin != link || f.end != link + 1 || std::abs(f.other_end - f.other_begin) != 1 ||
+        !is_end(f.begin) || !is_end(f.end))
+      continue;
+    const Contact &before = *profile.contact_at(f.begin), &after = *profile.contact_at(f.end);
+    const double width = profile.pieces[link].length(),
+                 other = std::abs(profile.contact_at(f.other_end)->s - profile.contact_at(f.other_begin)->s);
+    const double force = std::max(0.5 * (before.force + after.force), 0.0);
+    const double height =
+        force * (std::pow(width, 3) + std::pow(other, 3)) / (384.0 * profile.material.bending_stiffness);
+    const double from_end = std::min(std::abs(before.s - profile.contact_at(other_end(strands, f.begin))->s),
+                                     std::abs(after.s - profile.contact_at(other_end(strands, f.end))->s));
+    const double opened = std::pow(height / opened_so_far(profile, from_end), 1.0 / 6.0);
+    const double apart = 0.5 * (to_next(profile, strands, f.begin) + to_next(profile, strands, f.end));
+    return std::min(opened / std::pow(closes, 1.0 / 6.0),
+                    std::max(opened / std::pow(as_a_row, 1.0 / 6.0), width / (spacings * apart)));
+  }
+  return std::nullopt;
+}
+
 double carried_pull(const Profile& profile, const chain::Strands& strands, const Contact& contact) {
   const int joint = contact.joint;
   if (!strands.inside_line(joint)) return 0.0;
@@ -199,9 +259,7 @@ double carried_pull(const Profile& profile, const chain::Strands& strands, const
   const chain::StrandLine& line = strands.lines()[strands.line_of(joint)];
   const std::vector<int>& strand = strand_of(line, joint);
   const auto to = [&](int end) { return std::abs(profile.pieces[joint].s(0) - profile.pieces[end].s(0)); };
-  const double away = std::min(to(strand.front()), to(strand.back())) / profile.unit_length,
-               part = std::clamp((away - beside_end) / beside_end, 0.0, 1.0);
-  const double opened = opened_at_end + part * (opened_between_strands - opened_at_end);
+  const double opened = opened_so_far(profile, std::min(to(strand.front()), to(strand.back())));
   const double alone = 12.0 * opened * stiffness / (h * h * h);
   if (contact.force >= 0.0) return alone;
   const Suction pull = suction_about(profile, strands, joint);

@@ -76,4 +76,10 @@ inline constexpr double opened_at_end = 1e-9, beside_end = 0.1;
 double carried_pull(const chain::Profile& profile, const chain::Strands& strands,
                     const chain::Contact& contact);
 
+/// A gap of length w between two lines of the same two free strands, the only thing between them, over that from which on it is one
+/// with them. It is Fw³ (1 + ρ³)/384B high, F the force at its ends. Along a branch T = T* − c w²: at T* the strands touch all along,
+/// and the gap that a w beyond has is none. In a row of touches h apart that turn is at w = 2.6h (clove hitch, R/r = 1): no fold of the
+/// rod's. So it closes at a tenth of the height that opens a line, or at 3h where pulls carry a third of that. nullopt: none.
+std::optional<double> part_of_opened(const chain::Profile& profile, const chain::Strands& strands, int link);
+
 }  // namespace windlass::equilibrium

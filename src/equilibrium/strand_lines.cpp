@@ -205,6 +205,18 @@ std::optional<Successor> line_joins(int joint, const chain::Profile& profile, co
   return std::nullopt;
 }
 
+std::optional<Successor> gap_closes(int link, const chain::Profile& profile, const Topology& topology,
+                                    Strip strip) {
+  const Strands strands(topology);
+  for (const Strands::Facing& f : strands.facing(link)) {
+    if (f.line >= 0 || strands.line_of(f.begin) < 0 || strands.line_of(f.end) < 0) continue;
+    unite(strands, f, strip);
+    measure_parts(strip);
+    return with_touches(skeleton_of(strip).strip.successor(), profile, topology);
+  }
+  return std::nullopt;
+}
+
 std::optional<Successor> line_of_three(int joint, const chain::Profile& profile, const Topology& topology,
                                        Strip strip) {
   constexpr double near = 0.2;
@@ -334,15 +346,7 @@ std::optional<Successor> line_with_fewer_touches(const chain::Profile& profile, 
   const int which = strands.line_of(link);
   if (which < 0 || which != strands.line_of(link + 1)) return std::nullopt;
   const StrandLine& line = strands.lines()[which];
-  if (line.links() < 2) return std::nullopt;
-  if (!line.on_obstacles) {
-    const Successor skeleton = skeleton_of(strip).strip.successor();
-    constexpr double fewer = 0.7, fewest = 0.01;
-    Successor out = skeleton;
-    for (double finer = 1.0; finer > fewest; finer *= fewer)
-      if (out = with_touches(skeleton, profile, topology, finer); out.s.size() < strip.s.size()) return out;
-    return skeleton;
-  }
+  if (line.links() < 2 || !line.on_obstacles) return std::nullopt;
   const Monitor monitor = monitor_of(profile, line, strip);
   return laid_anew(line, strip, monitor,
                    std::clamp(static_cast<int>(std::ceil(monitor.links)), 1, line.links() - 1));

@@ -221,22 +221,24 @@ std::vector<Successor> strands_split(const ContactEvent& event, const Strip& str
   for (double& length : lengths) length *= profile.unit_length;
   if (const double opens = event.to - event.from; event.kind == ContactEvent::Kind::dip)
     lengths.insert(lengths.begin(), std::min(opens, lengths.back()));
+  const bool dips = event.kind == ContactEvent::Kind::dip && event.to > event.from;
+  const double part = dips ? (event.s - event.from) / (event.to - event.from) : 0.5;
   for (const int line : {event.presses ? fresh : 0, event.presses ? 0 : fresh})
     for (const double length : lengths) {
       Strip split = strip;
-      const auto widen = [&](int joint, int before, int after, int mark) {
+      const auto widen = [&](int joint, int before, int after, int mark, double opened, double share) {
         const bool on_line = split.is_line(joint - 1) && split.is_line(joint);
-        split.split(joint, strip.s[joint] + 0.5 * length, on_line ? Stretch::line : Stretch::gap,
+        split.split(joint, strip.s[joint] + (1.0 - share) * opened, on_line ? Stretch::line : Stretch::gap,
                     split.parts[joint].kind);
         split.on[joint].line = mark;
         split.on[joint + 1] = split.on[joint];
-        split.s[joint] -= 0.5 * length;
+        split.s[joint] -= share * opened;
         split.on[joint].strand = before;
         split.on[joint + 1].strand = after;
         split.parts[joint].fresh = true;
       };
       if (j == other) {
-        widen(j, old, -old, line);
+        widen(j, old, -old, line, length, 0.5);
         out.push_back(split.successor());
         continue;
       }
@@ -247,8 +249,11 @@ std::vector<Successor> strands_split(const ContactEvent& event, const Strip& str
         const int first = std::abs(strip.on[low].strand);
         // Images run the other way.
         const bool crossed = opposite == (sign > 0);
-        widen(high, sign * (crossed ? fresh : first), sign * (crossed ? first : fresh), -line);
-        widen(low, first, fresh, line);
+        const double ratio = dips ? std::abs(profile.contact_at(j)->place_ratio) : 1.0;
+        const double at_other = opposite ? 1.0 - part : part;
+        widen(high, sign * (crossed ? fresh : first), sign * (crossed ? first : fresh), -line,
+              j == high ? length : ratio * length, j == high ? part : at_other);
+        widen(low, first, fresh, line, j == low ? length : ratio * length, j == low ? part : at_other);
         out.push_back(split.successor());
       }
     }

@@ -35,6 +35,10 @@ void take_out(int j, Strip& strip);
 /// A mark that no touch has yet, see chain::Seat.
 int new_strand(const Strip& strip);
 
+/// A gap between two lines of the same two strands closes: they are one. nullopt: there is none at the link.
+std::optional<Successor> gap_closes(int link, const chain::Profile& profile, const chain::Topology& topology,
+                                    Strip strip);
+
 /// The line of a touch and the next one of the same two strands, where these overlap beside both. nullopt: there is none.
 std::optional<Successor> line_with_next(int joint, const chain::Profile& profile,
                                         const chain::Topology& topology, Strip strip);

@@ -83,16 +83,21 @@ std::optional<TouchDip> dip_beside_touch(const Profile& profile, const Strands& 
   };
   const double half = 0.5 * reach;
   const std::array near{rest(-half), rest(half)}, far{rest(-reach), rest(reach)};
-  double cubic = HUGE_VAL, quartic = 0.0;
+  double quartic = 0.0;
+  std::array<double, 2> cubic{};  // before and after
   for (int side = 0; side < 2; ++side) {
-    cubic = std::min(cubic, 2.0 * near[side] - far[side]);
+    cubic[side] = 2.0 * near[side] - far[side];
     quartic += 24.0 * (far[side] - near[side]) / half / 2.0;
   }
-  if (!(cubic > 0.0) || !(carried_length(cubic) < reach)) return std::nullopt;
+  const double least = std::min(cubic[0], cubic[1]), dip = std::max(-touch.gap_second, 0.0);
+  const double length = dip / (3.0 * least);  // of what follows, and to where strands are nearest
+  if (!(least > 0.0)) return std::nullopt;
   TouchDip out;
-  const double dip = std::max(-touch.gap_second, 0.0);
-  out.nearer = dip * dip * dip / (54.0 * cubic * cubic);
-  out.length = dip / (3.0 * cubic);
+  out.nearer = dip * dip * dip / (54.0 * least * least);
+  out.part = std::max(out.nearer / carried_between_strands, length / reach);
+  // The two share the force as their sides' cubics say, about where it is.
+  const double ahead = cubic[0] / (cubic[0] + cubic[1]);
+  out.from = touch.s - (1.0 - ahead) * length, out.to = touch.s + ahead * length;
   out.presses = quartic < 0.0;
   return out;
 }

@@ -14,8 +14,9 @@ namespace windlass::equilibrium {
 struct TouchDip {
   double nearer =
       0.0;  ///< how much nearer than 2r strands are beside the touch, on either side the most [ρ]; 0 for G″ >= 0
-  double length =
-      0.0;  ///< of the line, or the gap, that the touch stands for, along the strand of the touch's first place [ρ]
+  double part = 0.0;  ///< of what a touch carries: by that, or by what is seen of the strands beside it
+  double from = 0.0,
+         to = 0.0;       ///< ends of the line, or the gap, that the touch stands for, along its strand [ρ]
   bool presses = false;  ///< is it a line?
 };
 

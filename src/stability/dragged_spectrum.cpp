@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "continuation/eigen_sparse_instances.hpp"
+#include "windlass/chain/sparse_factors.hpp"
 #include "windlass/petsc/handles.hpp"
 
 namespace windlass::stability {
@@ -15,7 +16,7 @@ namespace {
 
 /// K⁻¹ M as SLEPc's operator.
 struct Operator {
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> factors;
+  chain::SparseFactors factors;
   const Eigen::SparseMatrix<double>* metric = nullptr;
 };
 
@@ -57,8 +58,8 @@ std::vector<Eigenvalue> leading_eigenvalues(const chain::Chain::DraggedVariation
   constexpr PetscInt few = 6;
   Operator op;
   op.metric = &variation.metric;
-  op.factors.compute(variation.matrix);
-  if (op.factors.info() != Eigen::Success)
+  op.factors.matrix() = variation.matrix;
+  if (op.factors.compute() == 0)
     throw std::runtime_error("spectrum: the linearisation of the dragged state is singular");
   const PetscInt n = static_cast<PetscInt>(variation.matrix.rows());
   petsc::MatHandle shell;

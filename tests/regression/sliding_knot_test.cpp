@@ -1,5 +1,6 @@
 // A clove hitch that a cylinder slides through, held back by a plate, as a user has it computed.
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <fstream>
@@ -70,6 +71,22 @@ BOOST_AUTO_TEST_CASE(a_dragged_hitch_is_followed_through_changes_of_contact) {
   for (const auto& row : table.rows)
     BOOST_TEST(std::abs(std::stod(row.at("plate_force")) / std::stod(row.at("F0")) - 1.0) < 1e-10);
   BOOST_TEST(table.rows.front().at("topology") != table.rows.back().at("topology"));
+}
+
+BOOST_AUTO_TEST_CASE(a_line_between_strands_closes_before_a_fold) {
+  // R/r = 1. Two lines of the same two strands grow towards each other and are one from T = 0.857 on; then comes a fold. Were the
+  // gap followed below the spacing of the lines' touches the branch would turn there, and go back as it came.
+  const TemporaryFolder folder;
+  const Table table = certified_run(hitch("continue", {"rod.radius=0.5", "continuation.from=0.85",
+                                                       "continuation.to=0.9", "continuation.max_points=50"}),
+                                    folder);
+  const auto fold = std::find_if(table.rows.begin(), table.rows.end(),
+                                 [](const auto& row) { return row.at("label") == "F1"; });
+  BOOST_REQUIRE((fold != table.rows.end()));
+  // From the other side, on a branch that has been through six more events, 0.8658725406; the touches' share is less than this.
+  BOOST_TEST(std::abs(std::stod(fold->at("T")) - 0.86587254) < 2e-8);
+  for (auto row = table.rows.begin(); row != table.rows.end(); ++row)
+    if (row != fold) BOOST_TEST(row->at("index") == (row < fold ? "0" : "1"));
 }
 
 BOOST_AUTO_TEST_CASE(a_plate_without_friction_leaves_the_knot_what_it_is) {

@@ -134,6 +134,13 @@ class Problem {
   /// Of an event that `passes` only the two descriptions are asked, that of its positive side first.
   virtual std::optional<Transition> transition(std::size_t which, const Vector& x, const Vector& p);
 
+  /// A solution of whatever description holds at `ahead`, near the guess x there: where transition() knows none, or what it knows
+  /// leads nowhere. It must be as near to the guess as that is to the last state, or it is of another branch.
+  /// @param last, last_p  the branch's last state of this description
+  /// @returns nullopt (the default): none is found
+  virtual std::optional<Transition> resettled(const Vector& last, const Vector& last_p, const Vector& x,
+                                              const Vector& ahead);
+
   /// May change the discretisation after an accepted point; returns the new state when it did. size() may
   /// change.
   virtual std::optional<Vector> adapt(const Vector& x, const Vector& p);

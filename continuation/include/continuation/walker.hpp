@@ -120,6 +120,10 @@ class Walker {
                                 const std::string& passed);
   double valid_over(const std::shared_ptr<Problem>& problem, const Vector& x, const Vector& p,
                     const Tangent& tangent, const std::string& passed);
+  void enter_at(Segment& segment, Sample& sample);
+  // walker_leap.cpp
+  bool leap(Point& event);
+  std::optional<Transition> leap_to(double length, int& direction);
 
   double& parameter(Vector& p) const { return p[options_.parameter]; }
   double parameter(const Vector& p) const { return p[options_.parameter]; }

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <memory>
 
 #include "windlass/chain/block.hpp"
+#include "windlass/chain/sparse_factors.hpp"
 
 namespace windlass::chain {
 
@@ -11,19 +11,13 @@ namespace windlass::chain {
 /// neighbours only, is large and nearly empty: its cost grows with the number of touches, not with the cube of it.
 class BlockFactors {
  public:
-  BlockFactors();
-  ~BlockFactors();
-  BlockFactors(BlockFactors&&) noexcept;
-  BlockFactors& operator=(BlockFactors&&) noexcept;
-
   void compute(const Block& block);
   Eigen::VectorXd solve(const Eigen::VectorXd& rhs, bool transposed) const;
   int determinant_sign() const { return sign_; }  ///< 0: singular
 
  private:
-  struct Sparse;
   Eigen::PartialPivLU<Eigen::MatrixXd> dense_;
-  std::unique_ptr<Sparse> sparse_;
+  SparseFactors sparse_;
   bool is_sparse_ = false;
   int sign_ = 0;
 };

@@ -76,6 +76,12 @@ Eigen::Vector3d curvature(const rod::Material& material, const Piece& piece, Eig
 Profile profile(const Chain& chain, const Topology& topology, const RodKind& rod, const VectorXd& x,
                 const Loads& loads);
 
+/// Has no arc a length below zero?
+bool in_order(const Profile& profile);
+
+/// How far apart the centre lines of two states are where it is most, at the joints of the first.
+double farthest(const Profile& one, const Profile& other);
+
 /// Sum of the sizes of all contact forces of the whole rod (both halves for a half chain).
 double total_contact_force(const Profile& profile, const Topology& topology);
 /// The same without sampling free arcs.

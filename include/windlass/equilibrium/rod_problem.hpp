@@ -68,6 +68,8 @@ class RodProblem final : public continuation::Problem {
   std::vector<continuation::EventFunction> events(const Vector& x, const Vector& p) override;
   std::optional<continuation::Transition> transition(std::size_t which, const Vector& x,
                                                      const Vector& p) override;
+  std::optional<continuation::Transition> resettled(const Vector& last, const Vector& last_p, const Vector& x,
+                                                    const Vector& ahead) override;
   /// Lays touches inside lines between strands anew where they are too few, and adapts the mesh.
   std::optional<Vector> adapt(const Vector& x, const Vector& p) override;
   std::optional<Vector> adapt_mesh(const Vector& x, const Vector& p);
