@@ -286,40 +286,7 @@ std::optional<continuation::Transition> RodProblem::transition(std::size_t which
                                                                const Vector& p) {
   const chain::Profile shape = profile(x, p);
   const ContactEvent event = contact_events(shape, topology_).at(which);
-  const After here = after_event(event, shape, x, p);
-  if (here.known) return here.transition;
-  const auto elsewhere = after_event_on_other_touches(event, shape, x, p);
-  return elsewhere ? elsewhere : here.transition;
-}
-
-std::optional<continuation::Transition> RodProblem::after_event_on_other_touches(const ContactEvent& event,
-                                                                                 const chain::Profile& shape,
-                                                                                 const Vector& x,
-                                                                                 const Vector& p) {
-  const Strip strip(topology_, joint_places(x, p, shape));
-  const Skeleton skeleton = skeleton_of(strip);
-  if (skeleton.strip.s.size() == strip.s.size()) return std::nullopt;
-  for (const double finer : {1.15, 1.3, 0.85}) {
-    Entry laid = draft(*this, with_touches(skeleton.strip.successor(), shape, topology_, finer), shape, p);
-    if (!tried([&] { return laid.problem->polish(laid.x, laid.p) >= 0; })) continue;
-    const chain::Profile there = laid.problem->profile(laid.x, laid.p);
-    const std::vector<ContactEvent> events = contact_events(there, laid.problem->topology());
-    // The same one: joints have other numbers now.
-    const auto distance = [&](const ContactEvent& other) {
-      return other.kind == event.kind && other.obstacle == event.obstacle ? std::abs(other.s - event.s)
-                                                                          : HUGE_VAL;
-    };
-    const auto same = std::min_element(events.begin(), events.end(), [&](const auto& a, const auto& b) {
-      return distance(a) < distance(b);
-    });
-    constexpr double close = 0.01;
-    if (same == events.end() || distance(*same) > close * rod_.unit_length) continue;
-    After after = laid.problem->after_event(*same, there, laid.x, laid.p);
-    if (!after.known || !after.transition || !after.transition->problem) continue;
-    after.transition->before = topology_.text();
-    return after.transition;
-  }
-  return std::nullopt;
+  return after_event(event, shape, x, p);
 }
 
 std::optional<continuation::Transition> RodProblem::resettled(const Vector& last, const Vector& last_p,
@@ -341,8 +308,9 @@ std::optional<continuation::Transition> RodProblem::resettled(const Vector& last
   return out;
 }
 
-RodProblem::After RodProblem::after_event(const ContactEvent& event, const chain::Profile& shape,
-                                          const Vector& x, const Vector& p) {
+std::optional<continuation::Transition> RodProblem::after_event(const ContactEvent& event,
+                                                                const chain::Profile& shape, const Vector& x,
+                                                                const Vector& p) {
   std::optional<continuation::Transition> first;
   std::string beyond;  // contacts that something in the scene is not built for
   for (const Successor& next : successors(event, shape, topology_, joint_places(x, p, shape))) {
@@ -351,7 +319,7 @@ RodProblem::After RodProblem::after_event(const ContactEvent& event, const chain
         continuation::Transition end;
         end.before = topology_.text();
         end.after = next.topology.text() + " (" + rim_not_thickened() + ")";
-        return {end};
+        return end;
       }
       beyond = fmt::format("{} ({} is not built for {})", next.topology.text(), key, contacts_not_built(key));
       continue;
@@ -360,19 +328,19 @@ RodProblem::After RodProblem::after_event(const ContactEvent& event, const chain
     transition.before = topology_.text();
     transition.after = next.topology.text();
     transition.silent = event.redrawn;
-    if (event.passes) return {transition};
+    if (event.passes) return transition;
     if (next.nothing_left && !rod_.strut) {  // a free rod goes on without contact
       transition.after = "no contact";
-      return {transition};  // null problem: the branch ends here
+      return transition;  // null problem: the branch ends here
     }
     if (next.at_rim) {
       transition.after = "contact with the plate's outer edge";
-      return {transition};
+      return transition;
     }
     if (next.at_end) {
       transition.after = "contact at the rod's end";
       transition.precision = to_the_end(*std::static_pointer_cast<RodProblem>(clone()), x, p, event.place);
-      return {transition};
+      return transition;
     }
     const Entry entry = draft(*this, next, shape, p);
     if (!first) {
@@ -399,13 +367,13 @@ RodProblem::After RodProblem::after_event(const ContactEvent& event, const chain
     transition.after = found->problem->topology().text();
     transition.state = found->x;
     if (!event.redrawn && (found->p != p || transition.precision >= 0.0)) transition.p = found->p;
-    return {transition};
+    return transition;
   }
-  if (beyond.empty()) return {first, false};
+  if (beyond.empty()) return first;
   continuation::Transition end;  // null problem: the branch ends here
   end.before = topology_.text(), end.after = beyond;
   end.precision = to_flat(*std::static_pointer_cast<RodProblem>(clone()), x, p, shape, event);
-  return {end};
+  return end;
 }
 
 }  // namespace windlass::equilibrium

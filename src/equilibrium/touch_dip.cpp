@@ -72,10 +72,11 @@ std::optional<TouchDip> dip_beside_touch(const Profile& profile, const Strands& 
   if (!is_free_touch(profile, strands, joint) || strands.line_of(joint) >= 0 || !(touch.force > 0.0) ||
       std::abs(touch.gap_second) > small / profile.unit_length)
     return std::nullopt;
-  double reach = most * profile.unit_length;
+  double room = HUGE_VAL;
   for (const int end : {joint, other})
     for (const bool ahead : {false, true})
-      reach = std::min(reach, part * length_beside(profile, strands, end, ahead));
+      room = std::min(room, part * length_beside(profile, strands, end, ahead));
+  const double reach = std::min(room, most * profile.unit_length);
   const Beside distance(profile, touch, *profile.contact_at(other), strands.mirrored(joint));
   // Of G″σ²/2 + (k ± c)σ³ + qσ⁴/24 at one and at two parts of what is seen.
   const auto rest = [&](double shift) {
@@ -91,7 +92,7 @@ std::optional<TouchDip> dip_beside_touch(const Profile& profile, const Strands& 
   }
   const double least = std::min(cubic[0], cubic[1]), dip = std::max(-touch.gap_second, 0.0);
   const double length = dip / (3.0 * least);  // of what follows, and to where strands are nearest
-  if (!(least > 0.0)) return std::nullopt;
+  if (!(least > 0.0) || !(carried_length(least) < room)) return std::nullopt;
   TouchDip out;
   out.nearer = dip * dip * dip / (54.0 * least * least);
   out.part = std::max(out.nearer / carried_between_strands, length / reach);

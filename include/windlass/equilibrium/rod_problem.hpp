@@ -161,16 +161,9 @@ class RodProblem final : public continuation::Problem {
  private:
   /// Is this key one of those that the parameters are?
   bool varies(const char* key) const;
-  /// What follows an event, and whether its state was found; else it is a guess.
-  struct After {
-    std::optional<continuation::Transition> transition = {};
-    bool known = true;
-  };
-  After after_event(const ContactEvent& event, const chain::Profile& shape, const Vector& x, const Vector& p);
-  /// The same on denser or sparser touches where lines between strands are rows of them; nullopt: there are none, or nothing was found.
-  std::optional<continuation::Transition> after_event_on_other_touches(const ContactEvent& event,
-                                                                       const chain::Profile& shape,
-                                                                       const Vector& x, const Vector& p);
+  /// What follows an event: its state, or where none is found a guess of the first that may follow.
+  std::optional<continuation::Transition> after_event(const ContactEvent& event, const chain::Profile& shape,
+                                                      const Vector& x, const Vector& p);
   void rebuild();
   /// Negative directions of one parity; counted once a state. The last factorisation, if it was not, was made there.
   /// Of eigenvalues whose sign rounding has made as many are counted as brings the count closest to `last`; −1: none.
