@@ -26,8 +26,12 @@ const Shape* shape_of(const std::vector<Shape>& shapes, int obstacle) {
   return obstacle >= 0 && obstacle < static_cast<int>(shapes.size()) ? &shapes[obstacle] : nullptr;
 }
 
+// By height and slope: what has left the plate is within 1e-9 of it for a thousandth, but not as little inclined.
 bool on_plate(const ArcRecord& arc, const scene::Scene& scene) {
-  return scene.plate && (arc.r.row(2).array() - scene.plate->height).abs().maxCoeff() < tight;
+  if (!scene.plate || (arc.r.row(2).array() - scene.plate->height).abs().maxCoeff() >= tight) return false;
+  for (Eigen::Index i = 0; i < arc.s.size(); ++i)
+    if (std::abs(tangent(sample(arc, i)).z()) >= tight) return false;
+  return true;
 }
 
 namespace {
