@@ -35,6 +35,8 @@ std::vector<Successor> after_vanished_length(const ContactEvent& event, const Pr
     return laid_anew(*anew, profile, topology, strip);
   if (event.redrawn && part_of_carried(profile, chain::Strands(topology), event.place))
     return become_one(event.place, profile, topology, strip);
+  if (event.redrawn && part_of_opened(profile, chain::Strands(topology), event.place))
+    if (const auto one = lines_unite(event.place, profile, topology, strip)) return {*one};
   return after_skeleton(event, profile, topology, strip);
 }
 

@@ -121,6 +121,11 @@ ContactEvent length_event(const Profile& profile, const Topology& topology, cons
     event.redrawn = true;
     return event;
   }
+  if (const auto part = part_of_opened(profile, strands, i)) {
+    ContactEvent event{Kind::length, i, *part - shorter, piece.s(0)};
+    event.redrawn = true;
+    return event;
+  }
   ContactEvent event{Kind::length, i, carried.value_or(piece.length() - least), piece.s(0)};
   event.redrawn = carried.has_value();
   event.imminent = hardly_apart(profile, i);

@@ -158,6 +158,25 @@ std::optional<ContactEvent> laid_between(const Profile& profile, const chain::St
   return event;
 }
 
+std::optional<double> part_of_opened(const Profile& profile, const chain::Strands& strands, int link) {
+  const auto ends_line = [&](int joint) {
+    const int line = strands.line_of(joint);
+    return line >= 0 && strands.lines()[line].links() > 1 && !strands.lines()[line].on_obstacles;
+  };
+  for (const chain::Strands::Facing& f : strands.facing(link)) {
+    const bool alone = f.begin == link && f.end == link + 1,
+               told_there = f.other_end == f.other_begin + 1 && f.other_begin < f.begin;
+    if (f.line >= 0 || !alone || told_there || strands.line_of(f.begin) == strands.line_of(f.end) ||
+        !ends_line(f.begin) || !ends_line(f.end))
+      continue;
+    const double force = profile.contact_at(f.begin)->force + profile.contact_at(f.end)->force;
+    const double height = 0.5 * std::max(force, 0.0) * std::pow(profile.pieces[link].length(), 3) /
+                          (192.0 * profile.material.bending_stiffness);
+    return std::pow(height / opened_between_strands, 1.0 / 6.0);
+  }
+  return std::nullopt;
+}
+
 namespace {
 
 /// The one of a line's two strands that a joint is a touch of.

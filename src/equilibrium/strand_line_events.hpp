@@ -51,6 +51,12 @@ std::optional<LaidAnew> laid_anew_at(const chain::Profile& profile, const chain:
 std::optional<ContactEvent> laid_between(const chain::Profile& profile, const chain::Strands& strands,
                                          int link);
 
+/// Of a gap between two lines of the same strands, a single link on one of them: its length over that of a gap
+/// which a line opens over. With a force F at its ends it is Fℓ³/192B high, which falls with the sixth power of ℓ:
+/// long before the gap is gone its ends, which tangency locates, no longer know where they are. nullopt: none of
+/// these, or told by the link of the other strand.
+std::optional<double> part_of_opened(const chain::Profile& profile, const chain::Strands& strands, int link);
+
 /// Touches next to each other inside a line that pull together: those from `first` to `last` of the line's, the force of all, and the
 /// places on their strand between which the pressure that they stand for, linear between touches, is below zero.
 struct Suction {

@@ -205,6 +205,19 @@ std::optional<Successor> line_joins(int joint, const chain::Profile& profile, co
   return std::nullopt;
 }
 
+std::optional<Successor> lines_unite(int link, const chain::Profile& profile, const Topology& topology,
+                                     Strip strip) {
+  const Strands strands(topology);
+  for (const Strands::Facing& f : strands.facing(link)) {
+    const int before = strands.line_of(f.begin), after = strands.line_of(f.end);
+    if (f.line >= 0 || f.begin != link || f.end != link + 1 || before < 0 || after < 0) continue;
+    unite(strands, f, strip);
+    measure_parts(strip);
+    return with_touches(skeleton_of(strip).strip.successor(), profile, topology);
+  }
+  return std::nullopt;
+}
+
 std::optional<Successor> line_of_three(int joint, const chain::Profile& profile, const Topology& topology,
                                        Strip strip) {
   constexpr double near = 0.2;

@@ -43,6 +43,10 @@ std::optional<Successor> line_with_next(int joint, const chain::Profile& profile
 std::optional<Successor> line_joins(int joint, const chain::Profile& profile, const chain::Topology& topology,
                                     Strip strip);
 
+/// Two lines of the same strands with a gap between them, a single link of one strand: one line. nullopt: none.
+std::optional<Successor> lines_unite(int link, const chain::Profile& profile, const chain::Topology& topology,
+                                     Strip strip);
+
 /// A strand that touches its own image between two touches with it, right beside each other: one line. nullopt: it does not.
 std::optional<Successor> line_of_three(int joint, const chain::Profile& profile,
                                        const chain::Topology& topology, Strip strip);
