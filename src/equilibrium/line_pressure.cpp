@@ -32,7 +32,9 @@ constexpr double next_to_none = 1e-6;
 
 /// Local minima of a line's pressure, the least first; each with where the line pulls about it: no length where it does not.
 /// A line that carries no pressure over its length is no less in contact for that; see rod::buckling_margin.
-std::vector<ContactEvent> dips(const Piece& line, const Dense& dense, int link, bool begins_at_mid) {
+/// @param pressed  a strand presses at one end: the other edge holds what pulls between the two, however short it is
+std::vector<ContactEvent> dips(const Piece& line, const Dense& dense, int link, bool begins_at_mid,
+                               bool pressed) {
   if (line.buckling) return {{Kind::pressure, link, far, line.s(0)}};
   const double begin = line.s(0), end = line.s(line.s.size() - 1);
   // Pressed evenly it lifts all at once, and a line that shrinks to nothing is not cut.
@@ -51,7 +53,7 @@ std::vector<ContactEvent> dips(const Piece& line, const Dense& dense, int link, 
                  after = dense.s(std::min(k + 1, p.size() - 1));
     const Least least = least_near(line, line.p, dense.s(k), p(k), before, after);
     ContactEvent event{Kind::pressure, link, least.value, least.s, least.s, least.s};
-    event.passes = !even && end - begin > 10.0 * least_length;
+    event.passes = pressed || (!even && end - begin > 10.0 * least_length);
     if (least.value < 0.0) {
       const double level = -next_to_none * least.value;
       event.from = rises_above(dense, level, least, -1);
@@ -94,7 +96,9 @@ ContactEvent suction(const Dense& line, const ContactEvent& pressure, const std:
   const double begin = line.s(0), end = line.s(line.s.size() - 1);
   const bool mirrored = event.from < begin;  // about the mid-point of a half chain
   if (event.to >= end || (!mirrored && event.from <= begin)) {
-    const double force = event.to >= end ? presses.end : presses.begin;
+    const double force = event.from <= begin && event.to >= end ? std::max(presses.begin, presses.end)
+                         : event.to >= end                      ? presses.end
+                                                                : presses.begin;
     // A wide one lifts the rod before it does as much to the state: not by more than certificates bear, 1e-9.
     constexpr double carried_height = 4e-8;
     const double part = force > 0.0 ? part_beside_press(pull, width, force)
@@ -141,7 +145,8 @@ std::vector<ContactEvent> on_both_halves(std::vector<ContactEvent> dips, double 
 std::array<ContactEvent, 2> pressure_and_suction(const Piece& line, int link, bool from_mid,
                                                  const Presses& presses) {
   const Dense dense = dense_samples(line, line.p);
-  const std::vector<ContactEvent> pressures = dips(line, dense, link, from_mid);
+  const bool pressed = !from_mid && (presses.begin > 0.0) != (presses.end > 0.0);
+  const std::vector<ContactEvent> pressures = dips(line, dense, link, from_mid, pressed);
   const std::vector<ContactEvent> all = from_mid ? on_both_halves(pressures, line.s(0)) : pressures;
   ContactEvent most = suction(dense, pressures.front(), all, presses);
   for (std::size_t k = 1; k < pressures.size(); ++k)

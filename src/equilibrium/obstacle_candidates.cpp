@@ -38,9 +38,16 @@ std::vector<Successor> after_pressure(const ContactEvent& event, const Strip& st
   Strip open = strip;  // the whole line lifts at once
   open.parts[i].kind = Stretch::gap;
   open.on[i + 1].flat = strip.on[i].flat;  // its edges are touches now, on the plate, too
-  if (line.p.maxCoeff() - line.p.minCoeff() < 1e-6) return {open.successor()};
   const double low = event.from, high = event.to, width = high - low;
   const bool at_start = low <= begin, at_end = high >= end;
+  if (event.kind == ContactEvent::Kind::suction && at_start && at_end)
+    for (const bool last : {false, true})
+      if (pressed_by(profile, strip, last ? i + 1 : i))
+        out.push_back(lifted_beside_press(i, strip, profile, last));
+  if (line.p.maxCoeff() - line.p.minCoeff() < 1e-6) {
+    out.push_back(open.successor());
+    return out;
+  }
   const bool at_mid = at_start && strip.starts_at_mid(i) && !strip.mid_touch;
   if (at_start != at_end && pressed_by(profile, strip, at_end ? i + 1 : i)) {
     for (const double size : gap_lengths(width, gap_beside_touch, 0.05, 0.9 * length))

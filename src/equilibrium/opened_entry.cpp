@@ -104,6 +104,28 @@ bool leaves_event(const Entry& entry, int link, double event) {
   return !begins || std::abs(begins->p - event) <= std::max(part * away, 2.0 * begins->precision);
 }
 
+/// What opens right beside another joint is tried shorter than the touch before it would carry: up to that length.
+void lengthen(Entry& entry, const std::vector<int>& opened, double length) {
+  constexpr int most = 8;
+  constexpr double longer = 1.2;
+  const auto too_short = [&](const ContactEvent& event) {
+    return event.kind == ContactEvent::Kind::length && event.redrawn &&
+           std::find(opened.begin(), opened.end(), event.place) != opened.end();
+  };
+  for (int k = 0; k < most; ++k) {
+    std::vector<ContactEvent> events =
+        contact_events(entry.problem->profile(entry.x, entry.p), entry.problem->topology());
+    const bool enough = admissible(events);
+    std::erase_if(events, too_short);
+    if (enough || !admissible(events)) return;
+    Entry next = entry;
+    length *= longer;
+    if (!tried([&] { return solve_at_length(*next.problem, next.x, next.p, opened.front(), length); }))
+      return;
+    entry = next;
+  }
+}
+
 }  // namespace
 
 std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, Together& left, bool as_long,
@@ -128,6 +150,7 @@ std::optional<Entry> open_in_turn(Entry entry, const std::vector<int>& opened, T
     entry.x = *finer;
     if (!solve()) return std::nullopt;
   }
+  if (!as_long) lengthen(entry, opened, length);
   if (as_long && !in_place && !bring_to(entry, opened.front(), p)) return std::nullopt;
   if (overlaps_between(entry, opened.front())) return std::nullopt;
   const chain::Profile shape = entry.problem->profile(entry.x, entry.p);

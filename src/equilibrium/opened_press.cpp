@@ -83,6 +83,23 @@ Successor opened_under_press(int link, Strip strip, const chain::Profile& profil
   return next;
 }
 
+Successor lifted_beside_press(int link, Strip strip, const chain::Profile& profile, bool at_end) {
+  const int joint = at_end ? link + 1 : link, beyond = at_end ? joint : joint - 1;
+  const double length = strip.s[link + 1] - strip.s[link], room = strip.s[beyond + 1] - strip.s[beyond];
+  const double moment = -profile.pieces[link].p.minCoeff() * length * length / 12.0;
+  const double lever = std::clamp(moment / *pressed_by(profile, strip, joint),
+                                  2.0 * least_beside_strand * profile.unit_length, 0.5 * room);
+  chain::Seat edge{strip.on[joint].obstacle};
+  edge.flat = strip.on[joint].flat;
+  strip.parts[link].kind = chain::Stretch::gap;
+  if (chain::Seat& press = strip.on[joint]; press.flat >= 0) press.obstacle = press.flat;
+  const chain::Stretch line = chain::Stretch::line, gap = chain::Stretch::gap;
+  strip.split(beyond, strip.s[joint] + (at_end ? lever : -lever), at_end ? gap : line, at_end ? line : gap,
+              edge);
+  strip.parts[at_end ? beyond : beyond + 1].fresh = true;
+  return strip.successor();
+}
+
 Successor closed_under_press(const OpenedPress& opened, Strip strip) {
   const int first = std::min(opened.gap, opened.lever);
   chain::Seat& press = strip.on[first + 1];

@@ -45,6 +45,10 @@ std::optional<double> pressed_by(const chain::Profile& profile, const Strip& str
 /// @param link    the line that pulls; @param at_end  the strand is at its end, else at its beginning
 Successor opened_under_press(int link, Strip strip, const chain::Profile& profile, bool at_end, double gap);
 
+/// A line between such a strand and its own edge pulls all along: it opens as a whole, and its edge is a touch. With the pull ε
+/// over the length ℓ, held at both ends, F d = εℓ²/12.
+Successor lifted_beside_press(int link, Strip strip, const chain::Profile& profile, bool at_end);
+
 /// The gap is carried by its line again, and the strand presses on that.
 Successor closed_under_press(const OpenedPress& opened, Strip strip);
 

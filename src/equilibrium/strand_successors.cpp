@@ -209,6 +209,13 @@ std::vector<Successor> strands_meet_beside(int j, const Strip& strip, const chai
   return out;
 }
 
+/// How far from joints the next ones are.
+double room_beside(const Strip& strip, std::initializer_list<int> joints) {
+  double out = HUGE_VAL;
+  for (const int j : joints) out = std::min({out, strip.s[j] - strip.s[j - 1], strip.s[j + 1] - strip.s[j]});
+  return out;
+}
+
 }  // namespace
 
 std::vector<Successor> strands_split(const ContactEvent& event, const Strip& strip,
@@ -221,6 +228,9 @@ std::vector<Successor> strands_split(const ContactEvent& event, const Strip& str
   for (double& length : lengths) length *= profile.unit_length;
   if (const double opens = event.to - event.from; event.kind == ContactEvent::Kind::dip)
     lengths.insert(lengths.begin(), std::min(opens, lengths.back()));
+  // Right beside another joint what opens does not reach it at first.
+  if (const double room = 1.8 * room_beside(strip, {j, other}); room < lengths.front())
+    lengths.insert(lengths.begin(), room);
   const bool dips = event.kind == ContactEvent::Kind::dip && event.to > event.from;
   const double part = dips ? (event.s - event.from) / (event.to - event.from) : 0.5;
   for (const int line : {event.presses ? fresh : 0, event.presses ? 0 : fresh})

@@ -59,6 +59,16 @@ double judged_between(const Solution& solution, std::size_t k, const Scales& sca
              : force / scales.force;
 }
 
+/// What such a touch pulls, the strand's obstacle bears in part: a pull, too, that lifts the strand off it by less than
+/// that height. Elsewhere as it is judged without a strand.
+double judged_under_strand(const Solution& solution, std::size_t k, const Scales& scales) {
+  const JointRecord& joint = solution.joints[k];
+  const double span = joint.partner >= 0 ? distance_that_counts(solution, k) : 1.0;
+  const bool borne = joint.force < 0.0 && joint.strand_force < 0.0 && span < 1.0 &&
+                     -joint.force * 8.0 * span * span * span / 12.0 < tight;
+  return borne ? 0.0 : judged(joint, solution.arcs[k - 1], solution.arcs[k], scales);
+}
+
 /// Is an arc a line on the cylinder that lies in the plate, too?
 bool lines_on_plate(const ArcRecord& arc, const scene::Scene& scene) {
   return arc.kind == ArcKind::line && on_plate(arc, scene);
@@ -78,8 +88,7 @@ void check_joints(const Solution& solution, const scene::Scene& scene, const Sca
     holding.add(std::abs(joint.holding) / scales.force);
     if (in_contact) {
       const bool inside = k > 0 && k + 1 < solution.joints.size();
-      contact.add(inside ? judged(joint, solution.arcs[k - 1], solution.arcs[k], scales)
-                         : joint.force / scales.force);
+      contact.add(inside ? judged_under_strand(solution, k, scales) : joint.force / scales.force);
     }
     if (joint.kind == JointKind::end && joint.obstacle > 0) {  // on a plate
       const Shape* shape = shape_of(shapes, joint.obstacle);
