@@ -67,7 +67,10 @@ void Walker::adapt() {
       // What only the new description makes negative is still to be passed, but where that has been tried down to the least steps.
       constexpr double many = 100.0;
       if (last_ds > many * options_.step_min)
-        for (auto& [name, sign] : state_.signs) sign = 1;
+        for (auto& [name, sign] : state_.signs) {
+          const EventFunction* function = find(state_.events, name);
+          if (!function || !function->passes) sign = 1;  // one that passes may have either
+        }
       state_.previous_events.clear();
     } else {
       state_.signs = std::move(signs);  // what only the new mesh makes negative is still to be passed

@@ -225,6 +225,20 @@ std::string new_touch_force(const Topology& topology) {
   return "force " + std::to_string(std::min(newest, chain::Strands(topology).partner(newest)));
 }
 
+/// Is it the state before the event again? A touch that strands meet in, and that a line of theirs has taken in, may be gone with the
+/// line's touches laid anew: then nothing but these has other numbers.
+bool came_from(const Entry& before, const ContactEvent& event, const Entry& found) {
+  const Topology &old = before.problem->topology(), &now = found.problem->topology();
+  if (now == old) return true;
+  if (event.kind != Kind::approach || now.text() != old.text()) return false;
+  const auto located = [](const Entry& at) {
+    const chain::Profile shape = at.problem->profile(at.x, at.p);
+    return skeleton_of(Strip(at.problem->topology(), at.problem->joint_places(at.x, at.p, shape)))
+        .strip.s.size();
+  };
+  return located(before) == located(found);
+}
+
 /// Solves for the successor of an event. @param transition  told where the state found is the event itself
 /// @param becomes_touch  a line on a plane has no length left
 std::optional<Entry> enter(const Entry& guess, const ContactEvent& event, const Successor& next,
@@ -351,10 +365,9 @@ std::optional<continuation::Transition> RodProblem::after_event(const ContactEve
     }
     const bool shrinks = event.kind == Kind::length && straight_line(*this, event.place) >= 0;
     std::optional<Entry> found = enter(entry, event, next, shrinks, transition);
-    if (!found || (!event.redrawn && found->problem->topology() == topology_))
-      continue;  // not where it came from
-    if (!tried([&] { return found->problem->settle(found->x, found->p), true; })) continue;
     const auto here = std::static_pointer_cast<RodProblem>(clone());
+    if (!found || (!event.redrawn && came_from({here, x, p}, event, *found))) continue;
+    if (!tried([&] { return found->problem->settle(found->x, found->p), true; })) continue;
     if (event.kind == Kind::length && !event.redrawn && transition.precision < 0.0 &&
         topology_.beside_strand(event.place))
       transition.located = located_vanishing({here, x, p}, event.place);

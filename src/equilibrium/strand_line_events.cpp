@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace windlass::equilibrium {
@@ -81,14 +82,33 @@ int line_of_several(const chain::Strands& strands, int link) {
   return line >= 0 && line == strands.line_of(link + 1) && strands.lines()[line].links() > 1 ? line : -1;
 }
 
+namespace {
+
+/// The same of a line or of others that have touches at the places of its own, for they need theirs.
+double nearer_at_same_places(const Profile& profile, const chain::Strands& strands, int line) {
+  std::set<int> lines{line};
+  const chain::StrandLine& all = strands.lines()[line];
+  for (const auto* strand : {&all.first, &all.second})
+    for (std::size_t k = 1; k + 1 < strand->size(); ++k)
+      for (const int link : {(*strand)[k] - 1, (*strand)[k]})
+        if (const int other = link < (*strand)[k] ? link : link + 1;
+            strands.welded(link) && strands.line_of(other) >= 0)
+          lines.insert(strands.line_of(other));
+  double most = 0.0;
+  for (const int one : lines) most = std::max(most, nearer_between(profile, strands, one));
+  return most;
+}
+
+}  // namespace
+
 ContactEvent spare_touches(const Profile& profile, const chain::Strands& strands, int i, int line) {
   ContactEvent event{ContactEvent::Kind::length, i, 1.0, profile.pieces[i].s(0)};
   event.redrawn = true;
   const chain::StrandLine& all = strands.lines()[line];
-  if (!all.on_obstacles) return event;  // see RodProblem::laid_where_needed
   if (i == all.first.front() || i == std::min(all.second.front(), all.second.back()))
     event.value =
-        nearer_between(profile, strands, line) / (spare_between_strands * carried_between_strands) - 1.0;
+        nearer_at_same_places(profile, strands, line) / (spare_between_strands * carried_between_strands) -
+        1.0;
   return event;
 }
 

@@ -346,7 +346,15 @@ std::optional<Successor> line_with_fewer_touches(const chain::Profile& profile, 
   const int which = strands.line_of(link);
   if (which < 0 || which != strands.line_of(link + 1)) return std::nullopt;
   const StrandLine& line = strands.lines()[which];
-  if (line.links() < 2 || !line.on_obstacles) return std::nullopt;
+  if (line.links() < 2) return std::nullopt;
+  if (!line.on_obstacles) {
+    const Successor skeleton = skeleton_of(strip).strip.successor();
+    constexpr double fewer = 0.7, fewest = 0.01;
+    Successor out = skeleton;
+    for (double finer = 1.0; finer > fewest; finer *= fewer)
+      if (out = with_touches(skeleton, profile, topology, finer); out.s.size() < strip.s.size()) return out;
+    return skeleton;
+  }
   const Monitor monitor = monitor_of(profile, line, strip);
   return laid_anew(line, strip, monitor,
                    std::clamp(static_cast<int>(std::ceil(monitor.links)), 1, line.links() - 1));
