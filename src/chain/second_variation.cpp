@@ -11,6 +11,29 @@ using contact::SmallVector;
 using Sparse = Eigen::SparseMatrix<double>;
 using Triplet = Eigen::Triplet<double>;
 
+namespace {
+
+/// What the arcs of a chain add up to, in time that grows with their entries: summed one by one, matrices would be copied for each.
+class SparseSum {
+ public:
+  explicit SparseSum(Eigen::Index size) : size_(size) {}
+  void operator+=(const Sparse& more) {
+    for (Eigen::Index c = 0; c < more.outerSize(); ++c)
+      for (Sparse::InnerIterator at(more, c); at; ++at) entries_.emplace_back(at.row(), c, at.value());
+  }
+  Sparse sum() const {
+    Sparse out(size_, size_);
+    out.setFromTriplets(entries_.begin(), entries_.end());
+    return out;
+  }
+
+ private:
+  Eigen::Index size_;
+  std::vector<Triplet> entries_;
+};
+
+}  // namespace
+
 Sparse Chain::scatter(const MatrixXd& ends, const Local& local, Eigen::Index dense, int link) const {
   const Eigen::Index interior = links_[link].arc->interior_tangent(), shift = dense - dense_size_;
   std::vector<Triplet> entries;
@@ -46,16 +69,16 @@ Chain::SecondVariation Chain::second_variation(const VectorXd& x, const Loads& l
   const Eigen::Index total = size_ - dense_size_ + numbering.size;
   SecondVariation out;
   out.constraints = numbering.constraints;
-  out.matrix.resize(total, total);
-  out.metric.resize(total, total);
+  SparseSum matrix(total), metric(total);
   const Block dense = variation_matrix(purpose, numbering, x, loads);
   for (int i = 0; i < link_count(); ++i) {
     const Placed placed = place(x, loads, i);
     const Local l = local(purpose, numbering, x, loads, i);
     const Sparse map = scatter(l.columns, l, numbering.size, i);
-    out.matrix += Sparse(map.transpose() * sparse_hessian(purpose, placed, i) * map);
-    out.metric += material_metric(numbering, placed, map, i);
+    matrix += Sparse(map.transpose() * sparse_hessian(purpose, placed, i) * map);
+    metric += material_metric(numbering, placed, map, i);
   }
+  out.matrix = matrix.sum(), out.metric = metric.sum();
   std::vector<Triplet> entries = dense.entries();
   if (holds_knot(numbering)) {
     const VectorXd slid = slid_by(purpose, numbering, x, loads);
@@ -168,11 +191,12 @@ Chain::DraggedVariation Chain::dragged_variation(const VectorXd& x, const Loads&
   for (Eigen::Index& at : place)
     if (at >= 0) at = count++;
   const Sparse matrix = jacobian(x, loads);  // first: joints take their drag from the gradients it leaves
-  Sparse metric(size_, size_);
+  SparseSum sum(size_);
   for (int i = 0; i < link_count(); ++i) {
     const Local l = local(Purpose::equilibrium, numbering_, x, loads, i);
-    metric += material_metric(numbering, this->place(x, loads, i), scatter(l.columns, l, dense_size_, i), i);
+    sum += material_metric(numbering, this->place(x, loads, i), scatter(l.columns, l, dense_size_, i), i);
   }
+  Sparse metric = sum.sum();
   const auto kept = [&](const Sparse& all, std::vector<Triplet> entries) {
     for (Eigen::Index c = 0; c < all.outerSize(); ++c)
       for (Sparse::InnerIterator at(all, c); at; ++at)
@@ -214,7 +238,7 @@ VectorXd Chain::as_increment(const VectorXd& variation, Parity parity) const {
 
 Sparse Chain::jacobian(const VectorXd& x, const Loads& loads) const {
   residual(x, loads);
-  Sparse out(size_, size_);
+  SparseSum out(size_);
   Block dense(dense_size_);
   for (int i = 0; i < link_count(); ++i) {
     const Local l = local(Purpose::equilibrium, numbering_, x, loads, i);
@@ -228,7 +252,7 @@ Sparse Chain::jacobian(const VectorXd& x, const Loads& loads) const {
   const std::vector<Triplet> entries = dense.entries();
   Sparse joints(size_, size_);
   joints.setFromTriplets(entries.begin(), entries.end());
-  return out + joints;
+  return out.sum() + joints;
 }
 
 }  // namespace windlass::chain

@@ -57,10 +57,13 @@ int SparseFactors::compute() {
   return (mantissa > 0.0) - (mantissa < 0.0);
 }
 
-Eigen::VectorXd SparseFactors::solve(const Eigen::VectorXd& rhs, bool transposed) const {
+Eigen::VectorXd SparseFactors::solve(const Eigen::VectorXd& rhs, bool transposed, bool refined) const {
   Eigen::VectorXd out(rhs.size());
+  std::array<double, UMFPACK_CONTROL> control;
+  umfpack_di_defaults(control.data());
+  if (!refined) control[UMFPACK_IRSTEP] = 0;
   umfpack_di_solve(transposed ? UMFPACK_At : UMFPACK_A, matrix_.outerIndexPtr(), matrix_.innerIndexPtr(),
-                   matrix_.valuePtr(), out.data(), rhs.data(), factors_->numeric, nullptr, nullptr);
+                   matrix_.valuePtr(), out.data(), rhs.data(), factors_->numeric, control.data(), nullptr);
   return out;
 }
 

@@ -26,7 +26,7 @@ PetscErrorCode apply(Mat shell, Vec in, Vec out) {
     check(MatShellGetContext(shell, &op));
     VectorXd x;
     petsc::copy(in, x);
-    petsc::copy(VectorXd(op->factors.solve(*op->metric * x)), out);
+    petsc::copy(VectorXd(op->factors.solve(*op->metric * x, false, false)), out);
   });
 }
 

@@ -20,8 +20,8 @@ class SparseFactors {
   Eigen::SparseMatrix<double>& matrix() { return matrix_; }
   /// @returns the determinant's sign, 0 where the matrix is singular
   int compute();
-  /// K⁻¹ rhs, or K⁻ᵀ rhs.
-  Eigen::VectorXd solve(const Eigen::VectorXd& rhs, bool transposed = false) const;
+  /// K⁻¹ rhs, or K⁻ᵀ rhs. @param refined  at twice the cost and more
+  Eigen::VectorXd solve(const Eigen::VectorXd& rhs, bool transposed = false, bool refined = true) const;
 
  private:
   struct Factors;
